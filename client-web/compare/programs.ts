@@ -26,7 +26,7 @@ async function run(program: string, args: readonly string[]): Promise<string> {
 }
 
 export const render = (scene: string, out: string, options: readonly string[]): Promise<string> =>
-  run(kFroxel, ['render', '--scene', scene, '--out', out, ...options]);
+  run(kFroxel, ['render', '--scene', scene, '--look', 'none', '--out', out, ...options]);
 
 type Triple = readonly [number, number, number];
 

@@ -128,6 +128,16 @@ class CommandBuilder {
                         shown_default);
     }
 
+    // Shows all options since the last group under this heading.
+    void group(const std::string& heading) const {
+        const CLI::Option* help = cli_.get_help_ptr();
+        for (CLI::Option* option : cli_.get_options({})) {
+            if (option != help && option->get_group() == help->get_group()) { // CLI11's usual one
+                option->group(heading);
+            }
+        }
+    }
+
     void device(gpu::DeviceChoice& choice, bool& validation) {
         name("--device", choice, gpu::kDeviceChoiceNames, "Vulkan device, a GPU before a CPU");
         cli_.add_flag("--validation", validation, "Turn on the Vulkan validation layer (slow)");

@@ -3,10 +3,13 @@
 #include "app/environment_file.h"
 #include "app/exit_codes.h"
 #include "app/info_report.h"
+#include "app/output_file.h"
 #include "app/scene_camera.h"
 #include "app/scene_source.h"
 #include "app/scene_table.h"
 #include "app/serve_command.h"
+#include "core/text.h"
+#include "gltf/image_decode.h"
 #include "gpu/device.h"
 #include "net/facts.h"
 #include "render/renderer.h"
@@ -15,8 +18,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstdio>
+#include <fstream>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace froxel::app {
 
@@ -77,6 +85,23 @@ Json drawOnce(gpu::Device& device, const scene::Scene& scene) {
     return drawn;
 }
 
+// What a file is that is a picture and no scene; null: it is none.
+Json pictureReport(const std::string& file) {
+    std::array<char, 64> first{};
+    std::ifstream(file, std::ios::binary).read(first.data(), first.size());
+    const std::string_view type = gltf::imageType(std::as_bytes(std::span(first)));
+    if (type.empty()) {
+        return nullptr;
+    }
+    const std::string bytes = readText(file).value();
+    try {
+        const auto size = gltf::imageSize(std::as_bytes(std::span(bytes)), "'" + file + "'");
+        return {{"type", type}, {"width_px", size.width_px}, {"height_px", size.height_px}};
+    } catch (const std::exception& failure) {
+        throw StartupError({ErrorCode::kScene, printable(failure.what(), 300)});
+    }
+}
+
 } // namespace
 
 void runInfo(const InfoOptions& options) try {
@@ -86,6 +111,11 @@ void runInfo(const InfoOptions& options) try {
         return;
     }
     Json info;
+    if (Json picture = pictureReport(options.scene); !picture.is_null()) {
+        info["picture"] = std::move(picture);
+        std::fputs((options.json ? info.dump(2) + "\n" : toText(info)).c_str(), stdout);
+        return;
+    }
     gpu::Device device(options.device);
     if (!options.scene.empty()) {
         const auto scene = loadScene(options.scene).value();

@@ -83,7 +83,8 @@ void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
         "above");
     command.number("--min-fps", options.min_fps, kRateRange, "",
                    "Exit 1 where a viewer has fewer frames a second");
-    command.text("--json", "FILE", options.json, "", "Every figure");
+    command.text("--json", "FILE|-", options.json, "",
+                 "Every figure; -: to standard output, and the table to stderr");
     command.cli().footer(kFooter);
 }
 

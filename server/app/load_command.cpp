@@ -133,16 +133,22 @@ load::RunResult runUntilSignal(const LoadOptions& options, const load::RunOption
 
 int runLoad(const LoadOptions& options) {
     const load::RunOptions run = runOptions(options);
-    if (!options.json.empty()) {
+    const bool to_stdout = options.json == "-";
+    if (!options.json.empty() && !to_stdout) {
         requireFolderOf(options.json);
     }
     const load::RunResult result = runUntilSignal(options, run);
     const auto broken = loadVerdict(options, result);
     const std::string table = loadTable(result);
-    std::fputs(table.c_str(), stdout);
+    std::fputs(table.c_str(), to_stdout ? stderr : stdout);
     std::fflush(stdout);
     if (!options.json.empty()) {
-        writeText(options.json, loadReport(options, result).dump(2) + "\n");
+        const std::string report = loadReport(options, result).dump(2) + "\n";
+        if (to_stdout) {
+            std::fputs(report.c_str(), stdout);
+        } else {
+            writeText(options.json, report);
+        }
     }
     if (broken) {
         throw StartupError({ErrorCode::kIo, *broken});

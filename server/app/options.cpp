@@ -6,6 +6,7 @@
 #include "app/probe_arguments.h"
 #include "app/serve_arguments.h"
 #include "app/setting_options.h"
+#include "app/suggestion.h"
 #include "bench/presets.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -17,8 +18,10 @@
 #include "settings/ranges.h"
 #include "settings/setting_rows.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace froxel::app {
 
@@ -178,31 +181,45 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
         byDevice([](const Defaults& d) { return fmt::format("{}", d.encoding.quality); }),
         [&options](const auto& value) { options.quality = std::get<uint32_t>(value); });
     addDelivery(command, options.delivery);
-    addLook(command, options.look, "evening in the built-in hall, else the scene's own");
+    command.group("First view: size and stream");
+    addLook(command, options.look);
     addViewSettings(command, options.first_view, options.given, options.light_set);
     addLensShift(command, options.lens_shift);
+    command.group("First view: look");
 }
 
 void addServe(CLI::App& app, Targets& targets) {
     auto& options = targets.serve;
-    CommandBuilder command(app, "serve", "Serve a scene to browsers: the page, /healthz and /ws");
+    CommandBuilder command(app, "serve",
+                           "Serve a scene to browsers: the page, /healthz and /ws\n\n"
+                           "  froxel serve                                    the built-in hall, "
+                           "at http://127.0.0.1:8080\n"
+                           "  froxel serve --scene model.glb --lights 5000    a model of your own, "
+                           "and more lights\n"
+                           "  froxel serve --scenes models/ --address 0.0.0.0 --allow-host NAME\n"
+                           "                                                  a folder of them, "
+                           "for others\n");
     addServeAddresses(command, options);
+    command.group("Addresses and access");
     addSceneOption(command, options.scene, options.scene);
     addScenesFolder(command, options.scenes,
                     "Folder whose glTF and GLB files viewers may go over to; what changes in it is "
                     "noticed, and on SIGHUP it is looked at again");
     addSceneChoices(command, options.choices);
     addEnvironmentFile(command, options.environment_file);
+    command.group("Scenes");
     command.device(options.device, options.validation);
     command.pipelineCache(options.pipeline_cache);
+    command.group("Device");
     addServeLimits(command, options);
+    command.group("Limits and times");
     addFirstView(command, options);
     finish(command, options, LogLevel::kInfo, targets, Configured::kBySources);
 }
 
 void addOutputs(CommandBuilder& command, RenderOptions& options) {
     command.value("--out", "FILE", options.out, parsePicturePath, "",
-                  "Last frame: .png, .jpg or .pfm (linear, before the exposure)");
+                  "Last frame: .png, .jpg, or .exr or .pfm (linear, before the exposure)");
     auto& encoding = options.encoding;
     for (const auto& row : settings::kEncodingRows) {
         if (row.name == "quality" || row.name == "chroma") { // a file is no stream
@@ -216,6 +233,7 @@ void addOutputs(CommandBuilder& command, RenderOptions& options) {
                            "Keep depth and G-buffer from frame to frame where nothing that is in "
                            "them changes, as serve does; else each frame is drawn whole");
     command.text("--timings", "FILE", options.timings, "", "JSON: times of passes and frames");
+    command.group("Picture and files");
 }
 
 void addRender(CLI::App& app, Targets& targets) {
@@ -227,8 +245,10 @@ void addRender(CLI::App& app, Targets& targets) {
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
-    addLook(command, options.look, "the scene's own");
+    command.group("Scene and device");
+    addLook(command, options.look);
     addViewSettings(command, settings, options.given, options.light_set);
+    command.group("Renderer");
     command.number("--time", options.time_s, settings::kTimeRange, "The lights' clock in seconds");
     command.value("--size", "WxH", settings.size, parseSize, textOf(settings.size),
                   sizeHelp("Picture"));
@@ -309,6 +329,7 @@ void addInfo(CLI::App& app, Targets& targets) {
     auto& options = targets.info;
     CommandBuilder command(app, "info", "Print the device, and what a scene holds and needs");
     addSceneOption(command, options.scene, "none");
+    command.cli().add_option("FILE", options.scene, "The same; or a picture");
     addScenesFolder(command, options.scenes,
                     "Print what each glTF and GLB file below is, as a table, and nothing besides");
     addEnvironmentFile(command, options.environment_file);
@@ -352,10 +373,57 @@ void checkBench(const BenchOptions& options) {
     }
 }
 
+std::vector<std::string> commandNames(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        names.push_back(command->get_name());
+    }
+    return names;
+}
+
+std::vector<std::string> optionNames(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back("--" + name);
+        }
+    }
+    return names;
+}
+
+// `command`: the subcommand that was given; null: none was.
+std::string unexpected(const CLI::App& app, const CLI::App* command, const std::string& text) {
+    const std::string name = text.substr(0, text.find('='));
+    const bool option = name.starts_with("-");
+    const std::string near =
+        nearestOf(name, option               ? optionNames(command != nullptr ? *command : app)
+                        : command == nullptr ? commandNames(app)
+                                             : std::vector<std::string>());
+    const std::string hint = near.empty() ? "" : "; did you mean " + near + "?";
+    if (command == nullptr) {
+        return fmt::format("froxel has no {} {}{}", option ? "option" : "command", printable(name),
+                           hint);
+    }
+    return option ? fmt::format("froxel {} has no option {}{}", command->get_name(),
+                                printable(name), hint)
+                  : fmt::format("froxel {} does not know what '{}' is for", command->get_name(),
+                                printable(name));
+}
+
 std::string usageError(const CLI::App& app, const CLI::ParseError& error) {
     const auto given = app.get_subcommands();
-    const std::string command = given.empty() ? "" : " " + given.front()->get_name();
-    return fmt::format("{} (see froxel{} --help)", printable(error.what(), 2000), command);
+    const CLI::App* command = given.empty() ? nullptr : given.front();
+    std::string text = printable(error.what(), 2000);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+        const auto extras = (command != nullptr ? *command : app).remaining();
+        const auto option = std::ranges::find_if(
+            extras, [](const std::string& extra) { return extra.starts_with("-"); });
+        if (!extras.empty()) { // an option, whose value may be left over, too
+            text = unexpected(app, command, option == extras.end() ? extras.front() : *option);
+        }
+    }
+    return fmt::format("{} (see froxel{} --help)", text,
+                       command != nullptr ? " " + command->get_name() : "");
 }
 
 } // namespace

@@ -124,6 +124,7 @@ std::vector<std::string> renderArguments(const RenderOptions& options, const std
                                              numberText(options.lens_shift->y));
     }
     arguments.always("--size", textOf(settings.size));
+    arguments.always("--look", "none"); // all that it would set is said
     addSettings(arguments, settings);
     if (!options.light_set.empty()) {
         arguments.always("--light-set", options.light_set.string());

@@ -28,8 +28,7 @@ namespace froxel::app {
 namespace {
 
 bool wantsRadiance(const RenderOptions& options) {
-    return !options.out.empty() &&
-           encode::imageFormatOf(options.out).value() == encode::ImageFormat::kPfm;
+    return !options.out.empty() && encode::isRadiance(encode::imageFormatOf(options.out).value());
 }
 
 // A picture to be written.
@@ -92,8 +91,7 @@ Still drawStill(render::ViewRenderer& viewer,
 
 void writePicture(const RenderOptions& options, const Still& still) {
     if (wantsRadiance(options)) {
-        const auto& linear = still.linear;
-        encode::writePfm(options.out, linear.width_px, linear.height_px, linear.rgb).value();
+        encode::writeRadiance(options.out, still.linear).value();
     } else {
         encode::writeImage(options.out, still.pixels(), options.encoding).value();
     }
@@ -104,8 +102,8 @@ TimedRun describeRun(const RenderOptions& options,
                      const gpu::DeviceTraits& device) {
     return {.device = report::summarize(device),
             .scene = options.scene,
-            .settings = firstLook(options.scene, scene, options.settings, options.given,
-                                  options.look, device.is_cpu),
+            .settings = beginningOf(options.scene, scene, options.settings, options.given,
+                                    options.look, device.is_cpu),
             .time_s = options.time_s,
             .step_s = report::lightStepS(options.settings.lights),
             .warmup_count = options.warmup_count,
@@ -194,6 +192,11 @@ void runRender(const RenderOptions& options) try {
                medianText(frame["host_us"]));
     if (last.frame.stats.details->legend) {
         fmt::print("{}\n", legendLine(*last.frame.stats.details->legend));
+    }
+    for (const auto* file : {&options.out, &options.timings}) {
+        if (!file->empty()) {
+            fmt::print("wrote {}\n", file->string());
+        }
     }
 } catch (const vk::SystemError& error) {
     throw StartupError({ErrorCode::kDevice, fmt::format("Vulkan: {}", error.what())});

@@ -21,7 +21,7 @@ struct RenderOptions {
     gpu::DeviceOptions device;
     settings::ViewSettings settings; // but for the camera, which `camera` chooses
     GivenSettings given;             // of them; what was not goes by the scene, as firstLook()
-    const scene::Look* look = nullptr;
+    ChosenLook look;
     std::filesystem::path light_set; // that settings.lights.placed was read from; empty: none
     CameraChoice camera;
     std::optional<glm::dvec2> lens_shift;    // of whichever camera it is

@@ -45,16 +45,9 @@ session::SessionDefaults SceneMaker::defaultsOf(const std::string& source,
     auto defaults = session::defaultsFor(device_is_cpu_ ? session::DeviceKind::kCpu
                                                         : session::DeviceKind::kGpu);
     const settings::Size size = options_.size.value_or(defaults.settings.size);
-    const scene::Look* look = options_.look != nullptr ? options_.look
-                              : isBuiltin(source)      ? scene::findLook("evening")
-                                                       : nullptr;
-    defaults.settings =
-        firstLook(source, scene, options_.first_view, options_.given, look, device_is_cpu_);
+    defaults.settings = beginningOf(source, scene, options_.first_view, options_.given,
+                                    options_.look, device_is_cpu_);
     defaults.settings.size = size;
-    // 27 us of 0.7 ms on an H100.
-    if (!device_is_cpu_ && look == nullptr && options_.given.count("antialiasing") == 0) {
-        defaults.settings.antialiasing = settings::Antialiasing::kFxaa;
-    }
     defaults.encoding.quality = options_.quality.value_or(defaults.encoding.quality);
     defaults.min_rate_hz = options_.min_rate_hz.value_or(defaults.min_rate_hz);
     defaults.delivery = options_.delivery;

@@ -33,6 +33,15 @@ struct SceneChoices {
                                                const scene::Look* look,
                                                bool software);
 
+// What a session and `froxel render` begin with: firstLook() with the look that was chosen, or else
+// "evening" in the hall and where scene::suitsEvening(), or else fxaa where a device is not slow.
+[[nodiscard]] settings::ViewSettings beginningOf(const std::string& source,
+                                                 const scene::Scene& scene,
+                                                 const settings::ViewSettings& settings,
+                                                 const GivenSettings& given,
+                                                 const ChosenLook& chosen,
+                                                 bool software);
+
 // Whether it is the built-in hall.
 [[nodiscard]] bool isBuiltin(const std::string& source);
 

@@ -120,7 +120,7 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
         "Refuse a session that would take active ones below these frames a second; 0: none");
     command.number("--frame-limit", options.frame_limit_s, kFrameLimitRange,
                    "Seconds of the device's time that one picture may take by its estimate; "
-                   "others are refused");
+                   "longer ones are drawn smaller");
     command.number("--resume-grace", options.resume_grace_s, kGraceRange,
                    "Seconds that a lost connection's session waits for it");
     command.number("--max-sessions-per-address", options.sessions_per_address, kAccountRange,

@@ -57,8 +57,8 @@ struct ServeOptions {
         session::defaultsFor(session::DeviceKind::kCpu).delivery; // the same on both
     settings::ViewSettings first_view; // but for its camera, and its size where that is given above
     GivenSettings given; // of first_view; what was not goes by the scene, as firstLook()
-    const scene::Look* look = nullptr; // none given: evening in the built-in hall
-    std::filesystem::path light_set;   // that first_view.lights.placed was read from; empty: none
+    ChosenLook look;
+    std::filesystem::path light_set; // that first_view.lights.placed was read from; empty: none
     std::optional<glm::dvec2> lens_shift;
     // The built page. Empty: web/ beside the binary, else where this build made it.
     std::filesystem::path web_root;

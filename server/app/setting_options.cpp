@@ -1,10 +1,13 @@
 #include "app/setting_options.h"
 
 #include "app/light_set_file.h"
+#include "core/assert.h"
 #include "core/text.h"
 #include "settings/setting_rows.h"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 namespace froxel::app {
 
@@ -12,6 +15,57 @@ namespace {
 
 using settings::SettingKind;
 using settings::SettingValue;
+
+// What an option says that turns off what is usually on.
+struct OffWords {
+    std::string_view name;
+    std::string_view help;
+};
+constexpr std::array kOffWords{
+    OffWords{"animate", "Keeps the seeded lights where they are"},
+    OffWords{"scene_lights", "Leaves out the lights that the scene's file has"},
+    OffWords{"animation_playing", "Holds the scene's animation at its beginning"},
+};
+
+std::string_view offHelp(const settings::Setting& setting) {
+    const auto* words = std::ranges::find(kOffWords, setting.name, &OffWords::name);
+    FROXEL_ASSERT(words != kOffWords.end(), "a switch that is usually on has words for off");
+    return words->help;
+}
+
+// Headings of --help, by how settings' names begin; the first that fits counts.
+struct Heading {
+    std::string_view prefix;
+    std::string_view text;
+};
+constexpr std::array kHeadings{
+    Heading{"light_loop", "Renderer"},
+    Heading{"lighting", "Renderer"},
+    Heading{"light", "Lights"},
+    Heading{"seed", "Lights"},
+    Heading{"animate", "Lights"},
+    Heading{"ambient", "Lights"},
+    Heading{"scene_lights", "Lights"},
+    Heading{"animation", "Animation"},
+    Heading{"environment", "Environment and background"},
+    Heading{"background", "Environment and background"},
+    Heading{"exposure", "Exposure and colour"},
+    Heading{"tone_map", "Exposure and colour"},
+    Heading{"toon", "Toon renderers"},
+    Heading{"outline", "Toon renderers"},
+    Heading{"bloom", "Effects"},
+    Heading{"antialiasing", "Effects"},
+    Heading{"fog", "Effects"},
+    Heading{"shadow", "Effects"},
+    Heading{"debug", "Debug views"},
+    Heading{"", "Renderer"},
+};
+
+std::string headingOf(const settings::Setting& setting) {
+    const auto* heading = std::ranges::find_if(
+        kHeadings, [&](const Heading& row) { return setting.name.starts_with(row.prefix); });
+    return std::string(heading->text);
+}
 
 bool usuallyOn(const SettingValue& usual) {
     const bool* on = std::get_if<bool>(&usual);
@@ -68,7 +122,7 @@ void addSetting(CommandBuilder& command,
         const bool given = !usuallyOn(usual);
         command.cli().add_flag_callback(
             optionName(setting, usual), [set, given] { set(given); },
-            (given ? "" : "Turns this off: ") + std::string(setting.words.help));
+            std::string(given ? setting.words.help : offHelp(setting)));
         return;
     }
     addSettingValue(command, setting, textOf(setting, usual), set);
@@ -85,12 +139,15 @@ void addSettingValue(CommandBuilder& command,
     command.parsed("--" + dashed(setting), type, parse, set, shown_default, helpOf(setting));
 }
 
-void addLook(CommandBuilder& command, const scene::Look*& look, const std::string& shown_default) {
-    const auto parse = [](const std::string& text) { return parseName(text, scene::lookNames()); };
-    command.parsed(
-        "--look", "NAME", parse, [&look](size_t index) { look = &scene::looks()[index]; },
-        shown_default,
-        "Preset of lights, environment and renderer: " + describe(scene::lookNames()));
+void addLook(CommandBuilder& command, ChosenLook& look) {
+    std::vector<std::string_view> names(scene::lookNames().begin(), scene::lookNames().end());
+    names.emplace_back("none");
+    const auto parse = [names](const std::string& text) { return parseName(text, names); };
+    const auto set = [&look](size_t index) {
+        look = index < scene::looks().size() ? &scene::looks()[index] : nullptr;
+    };
+    command.parsed("--look", "NAME", parse, set, "evening in the hall and Sponza, else none",
+                   "Preset of lights, environment and renderer: " + describe(names));
 }
 
 void addViewSettings(CommandBuilder& command,
@@ -103,9 +160,12 @@ void addViewSettings(CommandBuilder& command,
                        row.set(settings, value);
                        given.insert(row.name);
                    });
+        command.group(headingOf(row));
     }
     addGrid(command, settings.grid);
+    command.group("Renderer");
     addLightPlaces(command, settings.lights, light_set);
+    command.group("Lights");
 }
 
 void addLights(CommandBuilder& command,

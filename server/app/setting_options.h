@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -41,8 +42,11 @@ void addSetting(CommandBuilder& command, const settings::SettingOf<Whole>& row, 
 // The rows whose option was there, by name.
 using GivenSettings = std::set<std::string_view>;
 
-// A named preset; each setting that is given goes before it. Null: none was given.
-void addLook(CommandBuilder& command, const scene::Look*& look, const std::string& shown_default);
+// Empty: none was given, so it is the scene's usual one. Null: no look at all.
+using ChosenLook = std::optional<const scene::Look*>;
+
+// A named preset; each setting that is given goes before it.
+void addLook(CommandBuilder& command, ChosenLook& look);
 
 // All settings of the view's table, its grid and its lights; `light_set` becomes the file that
 // placed ones were read from.

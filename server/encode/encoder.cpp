@@ -1,9 +1,9 @@
 #include "encode/encoder.h"
 
 #include "core/assert.h"
-#include "encode/exr_encoder.h"
 #include "encode/jpeg_encoder.h"
 #include "encode/png_encoder.h"
+#include "encode/radiance_encoder.h"
 #include "encode/vp9_encoder.h"
 
 #include <array>
@@ -18,10 +18,9 @@ struct Maker {
 
 // Beside settings::kCodecRows, which must know no library.
 constexpr std::array kMakers = {
-    Maker{settings::Codec::kJpeg, makeJpegEncoder},
-    Maker{settings::Codec::kVp9, makeVp9Encoder},
-    Maker{settings::Codec::kPng, makePngEncoder},
-    Maker{settings::Codec::kExr, makeExrEncoder},
+    Maker{settings::Codec::kJpeg, makeJpegEncoder}, Maker{settings::Codec::kVp9, makeVp9Encoder},
+    Maker{settings::Codec::kPng, makePngEncoder},   Maker{settings::Codec::kExr, makeExrEncoder},
+    Maker{settings::Codec::kPfm, makePfmEncoder},
 };
 
 constexpr bool oneARow() {

@@ -2,10 +2,10 @@
 
 #include "core/text.h"
 #include "encode/jpeg_encoder.h"
+#include "encode/radiance_encoder.h"
 #include "png/writer.h"
 
 #include <algorithm>
-#include <bit>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -104,10 +104,13 @@ Result<ImageFormat> imageFormatOf(const path& file) {
     if (extension == ".jpg" || extension == ".jpeg") {
         return ImageFormat::kJpeg;
     }
+    if (extension == ".exr") {
+        return ImageFormat::kExr;
+    }
     if (extension == ".pfm") {
         return ImageFormat::kPfm;
     }
-    return invalid(file, "the name must end in .png, .jpg, .jpeg or .pfm");
+    return invalid(file, "the name must end in .png, .jpg, .jpeg, .exr or .pfm");
 }
 
 Result<void>
@@ -116,8 +119,8 @@ writeImage(const path& file, const PixelView& pixels, const settings::Encoding& 
     if (!format) {
         return format.error();
     }
-    if (*format == ImageFormat::kPfm) {
-        return invalid(file, "8-bit pixels go to .png or .jpg; .pfm holds linear radiance");
+    if (isRadiance(*format)) {
+        return invalid(file, "8-bit pixels go to .png or .jpg; .exr and .pfm hold linear radiance");
     }
     if (pixels.data == nullptr || pixels.width_px == 0 || pixels.height_px == 0 ||
         pixels.stride_bytes < size_t{pixels.width_px} * 4) {
@@ -129,29 +132,20 @@ writeImage(const path& file, const PixelView& pixels, const settings::Encoding& 
                                         : writeJpeg(file, pixels, encoding);
 }
 
-Result<void>
-writePfm(const path& file, uint32_t width_px, uint32_t height_px, std::span<const float> rgb) {
-    static_assert(std::endian::native == std::endian::little, "PFM is written as it lies here");
+Result<void> writeRadiance(const path& file, const LinearImage& image) {
     const auto format = imageFormatOf(file);
     if (!format) {
         return format.error();
     }
-    if (*format != ImageFormat::kPfm) {
-        return invalid(file, "linear radiance goes to .pfm");
+    if (!isRadiance(*format)) {
+        return invalid(file, "linear radiance goes to .exr or .pfm");
     }
-    const size_t row_floats = size_t{width_px} * 3;
-    if (row_floats == 0 || height_px == 0 || rgb.size() != row_floats * height_px) {
-        return invalid(file, numberText(rgb.size()) + " values do not make " +
-                                 numberText(width_px) + "x" + numberText(height_px) + " pixels");
+    const auto bytes = *format == ImageFormat::kExr ? exrOf(image) : pfmOf(image);
+    if (!bytes) {
+        return Error{bytes.error().code, file.string() + ": " + bytes.error().message};
     }
     OutputFile output(file);
-    // The negative scale says little endian; rows go bottom-up.
-    const std::string header =
-        "PF\n" + numberText(width_px) + " " + numberText(height_px) + "\n-1.0\n";
-    output.write(header.data(), header.size());
-    for (size_t y = height_px; y-- > 0;) {
-        output.write(rgb.data() + y * row_floats, row_floats * sizeof(float));
-    }
+    output.write(bytes->data(), bytes->size());
     return output.close();
 }
 

@@ -1,17 +1,22 @@
-// Pictures to files. The format follows from the file's name: .png, .jpg or .jpeg, .pfm.
+// Pictures to files. The format follows from the file's name: .png, .jpg or .jpeg, .exr, .pfm.
 #pragma once
 
 #include "core/error.h"
+#include "core/linear_image.h"
 #include "core/pixel_view.h"
 #include "settings/settings.h"
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 
 namespace froxel::encode {
 
-enum class ImageFormat : uint8_t { kPng, kJpeg, kPfm };
+enum class ImageFormat : uint8_t { kPng, kJpeg, kExr, kPfm };
+
+// Whether it holds light itself, as floats, in place of display colours.
+[[nodiscard]] constexpr bool isRadiance(ImageFormat format) {
+    return format == ImageFormat::kExr || format == ImageFormat::kPfm;
+}
 
 // Errors: kInvalidArgument naming the file and the extensions that work.
 [[nodiscard]] Result<ImageFormat> imageFormatOf(const std::filesystem::path& path);
@@ -22,11 +27,8 @@ enum class ImageFormat : uint8_t { kPng, kJpeg, kPfm };
                                       const PixelView& pixels,
                                       const settings::Encoding& encoding);
 
-// .pfm: linear fp32, `rgb` is [height][width][3], top row first (the file holds rows bottom-up,
-// little endian, bit for bit). Errors as above.
-[[nodiscard]] Result<void> writePfm(const std::filesystem::path& path,
-                                    uint32_t width_px,
-                                    uint32_t height_px,
-                                    std::span<const float> rgb);
+// .exr or .pfm (encode/radiance_encoder.h). Errors as above.
+[[nodiscard]] Result<void> writeRadiance(const std::filesystem::path& path,
+                                         const LinearImage& image);
 
 } // namespace froxel::encode

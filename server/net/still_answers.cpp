@@ -29,6 +29,7 @@ constexpr std::array kFormats{
     Format{"jpg", settings::Codec::kJpeg, "image/jpeg"},
     Format{"png", settings::Codec::kPng, "image/png"},
     Format{"exr", settings::Codec::kExr, "image/x-exr"},
+    Format{"pfm", settings::Codec::kPfm, "image/x-portable-floatmap"},
 };
 
 std::string_view viewOf(boost::beast::string_view text) {

@@ -44,12 +44,23 @@ constexpr settings::Background kStudioBackground{glm::vec3(0.05F), 0.6F};
 // White, under the ceiling, as far from each other as it is high.
 settings::PlacedLights lampsOf(const BoundsD3& room) {
     const glm::dvec3 size = room.size();
-    constexpr double kUp = 0.8;
+    // Higher up the ceiling would be white: at 0.8 it gets 16 times what the floor gets.
+    constexpr double kUp = 0.62;
     const double above_floor_m = kUp * size.y;
     const auto count = [&](double side_m) {
         return static_cast<int>(std::clamp(std::round(side_m / size.y), 1.0, 3.0));
     };
     const glm::ivec2 counts(count(size.x), count(size.z));
+    const glm::dvec2 apart_m = glm::dvec2(size.x, size.z) / glm::dvec2(counts);
+    // Of what one sends to the floor below it, what all send there: a lamp's light on a floor falls
+    // by the cube of the cosine of its slant.
+    double together = 0;
+    for (int x = 0; x < counts.x; ++x) {
+        for (int z = 0; z < counts.y; ++z) {
+            const glm::dvec2 aside_m = apart_m * glm::dvec2(x - counts.x / 2, z - counts.y / 2);
+            together += std::pow(1 + glm::dot(aside_m, aside_m) / std::pow(above_floor_m, 2), -1.5);
+        }
+    }
     std::vector<settings::PlacedLight> lamps;
     for (int i = 0; i < counts.x * counts.y; ++i) {
         const glm::dvec2 share =
@@ -57,10 +68,10 @@ settings::PlacedLights lampsOf(const BoundsD3& room) {
         settings::PlacedLight lamp;
         lamp.id = static_cast<uint32_t>(i + 1);
         lamp.position_world = room.min + size * glm::dvec3(share.x, kUp, share.y);
-        // A white floor below one sends 0.4 of white; the others add to it.
-        lamp.intensity =
-            static_cast<float>(within(settings::kLightIntensityRange,
-                                      0.4 * glm::pi<double>() * above_floor_m * above_floor_m));
+        // A white floor in the middle sends 0.4 of white.
+        lamp.intensity = static_cast<float>(
+            within(settings::kLightIntensityRange,
+                   0.4 * glm::pi<double>() * above_floor_m * above_floor_m / together));
         lamp.radius_m =
             static_cast<float>(within(settings::kLightRadiusRange, roundNumber(glm::length(size))));
         lamps.push_back(lamp);
@@ -98,6 +109,10 @@ void lookFor(const Scene& scene, settings::ViewSettings& settings) {
         lights.placed =
             lights.placed.lights().empty() ? lampsOf(scene.bounds_world) : lights.placed;
     }
+}
+
+bool suitsEvening(const Scene& scene) {
+    return scene.lights.empty() && isShowcase(scene);
 }
 
 } // namespace froxel::scene

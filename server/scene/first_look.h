@@ -13,4 +13,7 @@ namespace froxel::scene {
 // nobody knows and which are exposed by the picture, and in rooms, which get a few white lamps.
 void lookFor(const Scene& scene, settings::ViewSettings& settings);
 
+// Whether it begins with the look "evening".
+[[nodiscard]] bool suitsEvening(const Scene& scene);
+
 } // namespace froxel::scene

@@ -12,7 +12,7 @@
 
 namespace froxel::settings {
 
-enum class Codec : uint8_t { kJpeg, kVp9, kPng, kExr };
+enum class Codec : uint8_t { kJpeg, kVp9, kPng, kExr, kPfm };
 
 // What a codec gives bits for, and what a slow link takes from it.
 enum class RateControl : uint8_t {
@@ -54,7 +54,7 @@ inline constexpr std::array kCodecRows = {
              .rate_control = RateControl::kBitrate,
              .memory = {.base_bytes = 16 << 20U, .bytes_420 = 100, .bytes_444 = 130}},
     CodecRow{.codec = Codec::kPng, .name = "png", .chosen = false, .lossless = true},
-    // Memory: the means of the samples, planes for the library, the file; floats.
+    // Memory: the means of the samples, planes for the library of OpenEXR, the file; floats.
     CodecRow{.codec = Codec::kExr,
              .name = "exr",
              .streamed = false,
@@ -62,6 +62,13 @@ inline constexpr std::array kCodecRows = {
              .lossless = true,
              .radiance = true,
              .memory = {.base_bytes = 8 << 20U, .bytes_420 = 36, .bytes_444 = 36}},
+    CodecRow{.codec = Codec::kPfm,
+             .name = "pfm",
+             .streamed = false,
+             .chosen = false,
+             .lossless = true,
+             .radiance = true,
+             .memory = {.base_bytes = 8 << 20U, .bytes_420 = 24, .bytes_444 = 24}},
 };
 
 [[nodiscard]] constexpr const CodecRow& rowOf(Codec codec) {

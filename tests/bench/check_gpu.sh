@@ -52,7 +52,7 @@ lists() { # SCENE NAME LIGHTS STAGE [options]
     local scene=$1 name=lists.$2.$3.$4 lights=$3 stage=$4 start=$SECONDS renderer
     shift 4
     for renderer in naive forward_plus; do
-        "$froxel" render --device gpu --scene "$scene" --lights "$lights" --size 960x540 --warmup 0 \
+        "$froxel" render --device gpu --scene "$scene" --look none --lights "$lights" --size 960x540 --warmup 0 \
             --renderer "$renderer" --lighting "$stage" --out "$out/$name.$renderer.pfm" "$@" >/dev/null
     done
     if cmp -s "$out/$name.naive.pfm" "$out/$name.forward_plus.pfm"; then

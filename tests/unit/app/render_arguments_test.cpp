@@ -67,12 +67,13 @@ TEST(RowCommand, Row_IsDrawnAsItWasTimed) {
     bench::Row row;
     row.settings.lights.count = 12;
     row.only_view = 0;
-    EXPECT_EQ(rowCommand(options, result, row, 40),
-              "froxel render --scene 'my scene.gltf' --environment-file sky.hdr --device auto "
-              "--camera '-7,2,0;0,2,0.3;45' "
-              "--size 1280x720 --renderer clustered_deferred --lights 12 --light-radius 2 "
-              "--light-intensity 1 --environment off --exposure-mode fixed "
-              "--light-set placed.json --frames 40 --warmup 7 --timings timings.json");
+    EXPECT_EQ(
+        rowCommand(options, result, row, 40),
+        "froxel render --scene 'my scene.gltf' --environment-file sky.hdr --device auto "
+        "--camera '-7,2,0;0,2,0.3;45' "
+        "--size 1280x720 --look none --renderer clustered_deferred --lights 12 --light-radius 2 "
+        "--light-intensity 1 --environment off --exposure-mode fixed "
+        "--light-set placed.json --frames 40 --warmup 7 --timings timings.json");
     row.only_view = 1;
     row.light_set = "own.json";
     EXPECT_THAT(rowCommand(options, result, row, 40),

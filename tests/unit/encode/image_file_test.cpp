@@ -1,4 +1,5 @@
 #include "encode/image_file.h"
+#include "encode/radiance_encoder.h"
 #include "unit/encode/picture.h"
 
 #include <gtest/gtest.h>
@@ -40,9 +41,10 @@ TEST_F(ImageFile, Extension_DecidesTheFormatInAnyCase) {
     EXPECT_EQ(*imageFormatOf("a.png"), ImageFormat::kPng);
     EXPECT_EQ(*imageFormatOf("a.b/c.JPG"), ImageFormat::kJpeg);
     EXPECT_EQ(*imageFormatOf("a.jpeg"), ImageFormat::kJpeg);
+    EXPECT_EQ(*imageFormatOf("a.exr"), ImageFormat::kExr);
     EXPECT_EQ(*imageFormatOf("a.pfm"), ImageFormat::kPfm);
     EXPECT_EQ(imageFormatOf("shot.bmp").error().message,
-              "shot.bmp: the name must end in .png, .jpg, .jpeg or .pfm");
+              "shot.bmp: the name must end in .png, .jpg, .jpeg, .exr or .pfm");
     EXPECT_FALSE(imageFormatOf("png"));
 }
 
@@ -78,7 +80,7 @@ TEST_F(ImageFile, Pfm_HoldsRowsBottomUpBitForBit) {
                                     5.0F,  6.0F, // top row
                                     -0.0F, 1e-40F, 65504.0F, std::numeric_limits<float>::infinity(),
                                     0.1F,  3e38F};
-    ASSERT_TRUE(writePfm(file("a.pfm"), 2, 2, rgb));
+    ASSERT_TRUE(writeRadiance(file("a.pfm"), LinearImage{2, 2, rgb}));
     const std::string bytes = contents(file("a.pfm"));
     const std::string header = "PF\n2 2\n-1.0\n";
     ASSERT_EQ(bytes.size(), header.size() + rgb.size() * sizeof(float));
@@ -87,12 +89,22 @@ TEST_F(ImageFile, Pfm_HoldsRowsBottomUpBitForBit) {
     EXPECT_EQ(std::memcmp(bytes.data() + header.size() + 24, rgb.data(), 24), 0);
 }
 
+TEST_F(ImageFile, Exr_IsThatOfTheEncoder) {
+    const LinearImage image{2, 1, {1, 2, 3, 4, 5, 6}};
+    ASSERT_TRUE(writeRadiance(file("a.exr"), image));
+    const std::string bytes = contents(file("a.exr"));
+    const auto expected = exrOf(image).value();
+    ASSERT_EQ(bytes.size(), expected.size());
+    EXPECT_EQ(std::memcmp(bytes.data(), expected.data(), bytes.size()), 0);
+}
+
 TEST_F(ImageFile, WrongUse_NamesTheFile) {
     const Picture picture = makePicture(4, 4);
     const std::vector<float> rgb(48);
     EXPECT_THAT(writeImage(file("a.pfm"), picture.view(), {}).error().message, HasSubstr("a.pfm"));
-    EXPECT_THAT(writePfm(file("a.png"), 4, 4, rgb).error().message, HasSubstr("a.png"));
-    EXPECT_THAT(writePfm(file("b.pfm"), 4, 5, rgb).error().message,
+    EXPECT_THAT(writeRadiance(file("a.png"), LinearImage{4, 4, rgb}).error().message,
+                HasSubstr("a.png"));
+    EXPECT_THAT(writeRadiance(file("b.pfm"), LinearImage{4, 5, rgb}).error().message,
                 HasSubstr("b.pfm: 48 values do not make 4x5 pixels"));
     EXPECT_THAT(writeImage(file("c.png"), {}, {}).error().message, HasSubstr("c.png"));
     EXPECT_THAT(
@@ -117,11 +129,11 @@ TEST_F(ImageFile, FullDevice_IsAnIoError) {
         GTEST_SKIP() << "no /dev/full here";
     }
     const Picture picture = makePicture(300, 300);
-    for (const char* name : {"full.png", "full.jpg", "full.pfm"}) {
+    for (const char* name : {"full.png", "full.jpg", "full.exr", "full.pfm"}) {
         fs::create_symlink("/dev/full", file(name));
         const std::vector<float> rgb(size_t{300} * 300 * 3);
-        const auto result = imageFormatOf(name).value() == ImageFormat::kPfm
-                                ? writePfm(file(name), 300, 300, rgb)
+        const auto result = isRadiance(imageFormatOf(name).value())
+                                ? writeRadiance(file(name), LinearImage{300, 300, rgb})
                                 : writeImage(file(name), picture.view(), {});
         ASSERT_FALSE(result) << name;
         EXPECT_THAT(result.error().message, HasSubstr("No space left on device"));

@@ -86,12 +86,35 @@ TEST(LookFor, ARoom_HasAFewWhiteLampsUnderItsCeiling) {
     EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kStudio);
     ASSERT_EQ(settings.lights.placed.lights().size(), 1U);
     const settings::PlacedLight lamp = settings.lights.placed.lights()[0];
-    EXPECT_EQ(lamp.position_world, glm::dvec3(1, 8, 3));
+    EXPECT_LT(glm::distance(lamp.position_world, glm::dvec3(1, 4.4, 3)), 1e-9);
     EXPECT_EQ(lamp.color, glm::vec3(1));
     EXPECT_GT(lamp.radius_m, 17);
     settings.lights.placed = settings::PlacedLights({lamp, {.id = 7}});
     lookFor(room, settings);
     EXPECT_EQ(settings.lights.placed.lights().size(), 2U) << "somebody placed others";
+}
+
+TEST(LookFor, TheMiddleOfARoomsFloor_IsAsBrightWhateverTheNumberOfLamps) {
+    for (const double side_m : {6.0, 12.0, 18.0}) {
+        settings::ViewSettings settings;
+        Scene room = makeRoom({0, 0, 0}, 3);
+        room.instances[0].world_from_object[0] *= side_m / 6;
+        room.instances[0].world_from_object[2] *= side_m / 6;
+        room.bounds_world = {};
+        room.bounds_world.add(glm::dvec3(-side_m / 2, -3, -side_m / 2));
+        room.bounds_world.add(glm::dvec3(side_m / 2, 3, side_m / 2));
+        lookFor(room, settings);
+        double light = 0; // below the lamp nearest to the middle
+        const auto lamps = settings.lights.placed.lights();
+        ASSERT_EQ(lamps.size(), static_cast<size_t>(side_m * side_m / 36));
+        const glm::dvec3 floor =
+            lamps[lamps.size() / 2].position_world * glm::dvec3(1, 0, 1) - glm::dvec3(0, 3, 0);
+        for (const auto& lamp : lamps) {
+            const glm::dvec3 up = lamp.position_world - floor;
+            light += lamp.intensity * up.y / std::pow(glm::length(up), 3);
+        }
+        EXPECT_NEAR(light / glm::pi<double>(), 0.4, side_m == 12 ? 0.02 : 1e-6) << side_m;
+    }
 }
 
 TEST(LookFor, AHall_HasLampsAlongIt) {
@@ -104,8 +127,8 @@ TEST(LookFor, AHall_HasLampsAlongIt) {
     lookFor(hall, settings);
     const auto lamps = settings.lights.placed.lights();
     ASSERT_EQ(lamps.size(), 3U);
-    EXPECT_LT(glm::distance(lamps[0].position_world, glm::dvec3(-10, 1.8, 0)), 1e-9);
-    EXPECT_LT(glm::distance(lamps[2].position_world, glm::dvec3(10, 1.8, 0)), 1e-9);
+    EXPECT_LT(glm::distance(lamps[0].position_world, glm::dvec3(-10, 0.72, 0)), 1e-9);
+    EXPECT_LT(glm::distance(lamps[2].position_world, glm::dvec3(10, 0.72, 0)), 1e-9);
 }
 
 TEST(LookFor, AScenesOwnLights_AreMeteredBesideADimmerStudio) {

@@ -1,6 +1,6 @@
-#include "encode/exr_encoder.h"
+#include "encode/radiance_encoder.h"
 
-#include "core/linear_image.h"
+#include "core/text.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -61,8 +62,23 @@ std::vector<std::byte> write(const LinearImage& image) {
     return std::move(stream.bytes);
 }
 
-class ExrEncoder final : public Encoder {
+[[nodiscard]] Result<void> check(const LinearImage& image) {
+    const size_t values = size_t{image.width_px} * image.height_px * 3;
+    if (values == 0 || image.rgb.size() != values) {
+        return Error{ErrorCode::kInvalidArgument, numberText(image.rgb.size()) +
+                                                      " values do not make " +
+                                                      numberText(image.width_px) + "x" +
+                                                      numberText(image.height_px) + " pixels"};
+    }
+    return {};
+}
+
+using Writer = Result<std::vector<std::byte>> (*)(const LinearImage& image);
+
+class RadianceEncoder final : public Encoder {
   public:
+    explicit RadianceEncoder(Writer writer) : writer_(writer) {}
+
     [[nodiscard]] Result<EncodedPart> encode(const PixelView& part,
                                              const settings::Encoding& /*encoding*/,
                                              bool /*key*/,
@@ -70,20 +86,57 @@ class ExrEncoder final : public Encoder {
         if (part.radiance == nullptr || part.width_px == 0 || part.height_px == 0) {
             return Error{ErrorCode::kInvalidArgument, "an empty picture, or one without radiance"};
         }
-        try {
-            return EncodedPart{write(radianceOf(part))};
-        } catch (const std::bad_alloc&) {
-            throw;
-        } catch (const std::exception& failure) {
-            return Error{ErrorCode::kIo, failure.what()};
+        auto bytes = writer_(radianceOf(part));
+        if (!bytes) {
+            return bytes.error();
         }
+        return EncodedPart{std::move(*bytes)};
     }
+
+  private:
+    Writer writer_;
 };
 
 } // namespace
 
+Result<std::vector<std::byte>> exrOf(const LinearImage& image) {
+    if (auto checked = check(image); !checked) {
+        return checked.error();
+    }
+    try {
+        return write(image);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& failure) {
+        return Error{ErrorCode::kIo, failure.what()};
+    }
+}
+
+Result<std::vector<std::byte>> pfmOf(const LinearImage& image) {
+    static_assert(std::endian::native == std::endian::little, "PFM is written as it lies here");
+    if (auto checked = check(image); !checked) {
+        return checked.error();
+    }
+    // The negative scale says little endian; rows go bottom-up.
+    const std::string header =
+        "PF\n" + numberText(image.width_px) + " " + numberText(image.height_px) + "\n-1.0\n";
+    const size_t row_bytes = size_t{image.width_px} * 3 * sizeof(float);
+    std::vector<std::byte> bytes(header.size() + row_bytes * image.height_px);
+    std::memcpy(bytes.data(), header.data(), header.size());
+    const auto* rows = reinterpret_cast<const std::byte*>(image.rgb.data());
+    for (size_t y = 0; y < image.height_px; ++y) {
+        std::memcpy(bytes.data() + header.size() + y * row_bytes,
+                    rows + (image.height_px - 1 - y) * row_bytes, row_bytes);
+    }
+    return bytes;
+}
+
 std::unique_ptr<Encoder> makeExrEncoder(size_t /*thread_count*/) {
-    return std::make_unique<ExrEncoder>();
+    return std::make_unique<RadianceEncoder>(exrOf);
+}
+
+std::unique_ptr<Encoder> makePfmEncoder(size_t /*thread_count*/) {
+    return std::make_unique<RadianceEncoder>(pfmOf);
 }
 
 } // namespace froxel::encode

@@ -1,6 +1,6 @@
 // Read again by the library that panoramas are read with.
 #include "core/linear_image.h"
-#include "encode/exr_encoder.h"
+#include "encode/radiance_encoder.h"
 #include "environment/reader.h"
 #include "unit/encode/picture.h"
 
