@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -96,6 +97,9 @@ std::optional<Offered> offerFile(const fs::path& file, const fs::path& folder) {
                    path,
                    real.string(),
                    bytes,
+                   std::chrono::duration_cast<std::chrono::seconds>(
+                       std::chrono::file_clock::to_sys(changed).time_since_epoch())
+                       .count(),
                    hashOf(fmt::format("{} {}", bytes, changed.time_since_epoch().count()))};
 }
 

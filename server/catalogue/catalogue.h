@@ -13,12 +13,13 @@
 namespace froxel::catalogue {
 
 struct Offered {
-    std::string id;       // stays the same while the file keeps its path
-    std::string name;     // of the file, without its ending: untrusted bytes
-    std::string path;     // below the folder, likewise; empty: outside of it
-    std::string source;   // as app::loadScene() takes it
-    uint64_t bytes = 0;   // of the file alone, not of those that it refers to
-    uint64_t version = 0; // another one where size or time of the file are others
+    std::string id;         // stays the same while the file keeps its path
+    std::string name;       // of the file, without its ending: untrusted bytes
+    std::string path;       // below the folder, likewise; empty: outside of it
+    std::string source;     // as app::loadScene() takes it
+    uint64_t bytes = 0;     // of the file alone, not of those that it refers to
+    int64_t modified_s = 0; // since 1970; 0: it is no file
+    uint64_t version = 0;   // another one where size or time of the file are others
 };
 
 struct Listing {

@@ -29,6 +29,7 @@ Result<scene::Scene> load(const std::filesystem::path& file, const ProgressRepor
         const Document document = readDocument(folder, warnings);
         scene::Scene scene = buildScene(document, folder, progress, warnings);
         scene.name = file.stem().string();
+        scene.file_bytes = folder.fileBytes();
         warnings.moveInto(scene);
         return scene;
     } catch (const CalledOff&) {

@@ -171,7 +171,13 @@ SceneFolder::SceneFolder(const fs::path& scene_file, LoadProgress& progress)
 }
 
 Bytes SceneFolder::readSceneFile() {
-    return readFile(scene_file_, "the scene", bytes_, progress_);
+    return readIn(scene_file_, "the scene");
+}
+
+Bytes SceneFolder::readIn(const fs::path& path, const std::string& user) {
+    Bytes bytes = readFile(path, user, bytes_, progress_);
+    file_bytes_ += bytes.size();
+    return bytes;
 }
 
 Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
@@ -193,7 +199,7 @@ Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
                                           "', a link that leaves the scene's folder; right is a "
                                           "file inside it");
     }
-    return readFile(target, user, bytes_, progress_);
+    return readIn(target, user);
 }
 
 } // namespace froxel::gltf

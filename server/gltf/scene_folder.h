@@ -31,11 +31,17 @@ class SceneFolder {
     // wrong, there is no such file or the base64 text is broken.
     [[nodiscard]] Bytes read(const std::string& uri, const std::string& user);
 
+    // Of all files that were read.
+    [[nodiscard]] uint64_t fileBytes() const { return file_bytes_; }
+
   private:
+    [[nodiscard]] Bytes readIn(const std::filesystem::path& path, const std::string& user);
+
     std::filesystem::path scene_file_;
     std::filesystem::path folder_; // canonical
     LoadProgress& progress_;
     Budget bytes_{"bytes of files", kMaxFileBytes};
+    uint64_t file_bytes_ = 0;
 };
 
 } // namespace froxel::gltf

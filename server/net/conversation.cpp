@@ -275,10 +275,7 @@ void Conversation::drain(const Draining& draining) {
 }
 
 void Conversation::sayLoading() {
-    v1::ServerMessage message;
-    message.mutable_loading()->set_stage(service_.loading.stage);
-    message.mutable_loading()->set_fraction(service_.loading.fraction);
-    answer(message);
+    answer(session::makeLoading(service_.loading));
 }
 
 void Conversation::onNotice(Notice notice) {

@@ -323,6 +323,9 @@ std::vector<v1::ServerMessage> LiveSession::newsOfScene(const Place& place,
         messages.push_back(session::makeSceneLoading({}, {}));
     }
     member->told_loading = awaited_.has_value();
+    if (std::exchange(member->told_compiling, compiling_) != compiling_) {
+        messages.push_back(session::makeLoading({compiling_ ? "compiling shaders" : "", 0}));
+    }
     return messages;
 }
 
@@ -654,6 +657,13 @@ void LiveSession::takeBack(const SessionState& refused,
         tellScene(mail);
     }
     serving_.port->update(id_, state_, now);
+}
+
+void LiveSession::compiling(bool under_way) {
+    Mail mail;
+    const std::lock_guard lock(mutex_);
+    compiling_ = under_way;
+    tellScene(mail);
 }
 
 void LiveSession::deviceLost(Error error) {

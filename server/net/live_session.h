@@ -147,6 +147,7 @@ class LiveSession final : public session::FrameSink,
     void refuse(Error error,
                 session::SessionState refused,
                 std::optional<session::SessionState> drawn) override;
+    void compiling(bool under_way) override;
     void deviceLost(Error error) override;
     void onSceneProgress(const std::string& id, const Progress& progress) override;
     void onScene(const std::string& id, Result<session::SharedContext> scene) override;
@@ -169,6 +170,7 @@ class LiveSession final : public session::FrameSink,
         bool has_scene_news = false;
         uint64_t told_scene = 0;   // scene_count_ of what it knows of
         bool told_loading = false; // that one is being loaded
+        bool told_compiling = false;
     };
     // A scene that is not there yet.
     struct Awaited {
@@ -217,6 +219,7 @@ class LiveSession final : public session::FrameSink,
     session::CommandStamp scene_stamp_; // of the command that the scene is shown for
     uint64_t scene_count_ = 1;          // so far, of those shown
     std::optional<Awaited> awaited_;
+    bool compiling_ = false;                     // shaders of the next picture
     std::optional<session::ReadyFrame> picture_; // newest
     std::optional<session::ReadyFrame> plain_;   // newest that is not refined
     uint64_t delivered_ = 0;                     // pictures that came from the stream

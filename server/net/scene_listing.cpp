@@ -36,9 +36,10 @@ const char* wordOf(session::SceneStanding standing) {
 }
 
 Json jsonOf(const session::SceneContents& contents) {
-    return {{"triangles", contents.triangles}, {"materials", contents.materials},
-            {"textures", contents.textures},   {"lights", contents.lights},
-            {"cameras", contents.cameras},     {"animations", contents.animations}};
+    return {{"file_bytes", contents.file_bytes}, {"triangles", contents.triangles},
+            {"materials", contents.materials},   {"textures", contents.textures},
+            {"lights", contents.lights},         {"cameras", contents.cameras},
+            {"animations", contents.animations}};
 }
 
 Json rowOf(const catalogue::Offered& scene, const session::ScenePort* port) {
@@ -56,6 +57,9 @@ Json rowOf(const catalogue::Offered& scene, const session::ScenePort* port) {
         {"bytes", scene.bytes},
         {"thumb", fmt::format("{}/{}{}?v={:x}", kScenesPath, scene.id, kThumbnail, scene.version)},
         {"state", wordOf(report.standing)}};
+    if (scene.modified_s > 0) {
+        row["modified"] = scene.modified_s;
+    }
     if (report.standing == session::SceneStanding::kLoading) {
         row["stage"] = report.progress.stage;
         row["fraction"] = report.progress.fraction;

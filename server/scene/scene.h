@@ -192,6 +192,7 @@ struct PunctualLight {
 
 struct Scene {
     std::string name;
+    uint64_t file_bytes = 0; // of its file and of all that this refers to; 0: it is built in
     std::vector<Image> images;
     std::vector<Sampler> samplers;
     std::vector<Texture> textures;

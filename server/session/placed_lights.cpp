@@ -245,6 +245,9 @@ CommandResult<settings::PlacedLights> parseLightSet(std::string_view json) {
         !parsed) {
         return parsed.error();
     }
+    if (set.ByteSizeLong() == 0) { // a command of nothing is none, a set of none is one
+        return settings::PlacedLights();
+    }
     FieldValidator fields;
     const SetPlacedLights command = decodePlacedLights(set, fields);
     if (fields.rejection()) {

@@ -20,7 +20,8 @@ enum class SceneStanding : uint8_t { kUnknown, kOffered, kLoading, kReady };
 
 // What of a scene people choose by.
 struct SceneContents {
-    uint64_t triangles = 0; // drawn, instances counted each
+    uint64_t file_bytes = 0; // of the scene's file and of all that this refers to
+    uint64_t triangles = 0;  // drawn, instances counted each
     uint64_t materials = 0;
     uint64_t textures = 0;
     uint64_t lights = 0;

@@ -6,7 +6,8 @@
 namespace froxel::session {
 
 SceneContents contentsOf(const SceneSummary& scene) {
-    return {.triangles = scene.triangle_count,
+    return {.file_bytes = scene.file_bytes,
+            .triangles = scene.triangle_count,
             .materials = scene.material_count,
             .textures = scene.texture_count,
             .lights = scene.punctual_light_count,
@@ -17,6 +18,7 @@ SceneContents contentsOf(const SceneSummary& scene) {
 SceneSummary summarize(const scene::Scene& scene) {
     SceneSummary summary;
     summary.name = scene.name;
+    summary.file_bytes = scene.file_bytes;
     summary.material_count = static_cast<uint32_t>(scene.materials.size());
     summary.texture_count = static_cast<uint32_t>(scene.textures.size());
     summary.punctual_light_count = static_cast<uint32_t>(scene.lights.size());

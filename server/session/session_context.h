@@ -22,6 +22,7 @@ namespace froxel::session {
 // What is left of a scene when its geometry has gone to the device.
 struct SceneSummary {
     std::string name;
+    uint64_t file_bytes = 0;     // scene::Scene
     uint32_t triangle_count = 0; // drawn, instances counted each
     uint32_t draw_count = 0;
     uint32_t material_count = 0;

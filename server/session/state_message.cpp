@@ -293,6 +293,13 @@ makeSceneChanged(const SessionState& state, const SessionState& first, uint64_t 
     return message;
 }
 
+v1::ServerMessage makeLoading(const Progress& progress) {
+    v1::ServerMessage message;
+    message.mutable_loading()->set_stage(progress.stage);
+    message.mutable_loading()->set_fraction(progress.fraction);
+    return message;
+}
+
 v1::ServerMessage makeSceneLoading(const std::string& id, const Progress& progress) {
     v1::ServerMessage message;
     v1::SceneLoading& loading = *message.mutable_scene_loading();

@@ -36,6 +36,7 @@ void addPlace(v1::ServerMessage& welcome, const SessionContext& context, const W
 [[nodiscard]] v1::ServerMessage
 makeSceneChanged(const SessionState& state, const SessionState& first, uint64_t ref_seq);
 // An empty id: none is being loaded.
+[[nodiscard]] v1::ServerMessage makeLoading(const Progress& progress);
 [[nodiscard]] v1::ServerMessage makeSceneLoading(const std::string& id, const Progress& progress);
 // The protocol's name of it in small letters: "out_of_range".
 [[nodiscard]] std::string nameOf(RejectCode code);

@@ -40,6 +40,8 @@ class FrameSink {
     // device cannot do what its settings ask for). `drawn` is what was drawn last, none before the
     // first picture; the session falls back to it.
     virtual void refuse(Error error, SessionState refused, std::optional<SessionState> drawn) = 0;
+    // Whether the next picture waits for shaders that are being compiled. Told of each change.
+    virtual void compiling(bool /*under_way*/) {}
     // A picture that was drawn is lost: no encoder makes one of it. On an encoder's thread.
     virtual void notEncoded(Error /*error*/) {}
     // No picture comes any more.

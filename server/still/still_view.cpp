@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "froxel/v1/client.pb.h"
 #include "session/command_decode.h"
+#include "session/placed_lights.h"
 #include "session/proto_vec.h"
 #include "session/scene_change.h"
 #include "settings/value_text.h"
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace froxel::still {
 
@@ -27,6 +29,7 @@ struct Asked {
     session::SetToon toon;
     session::SetLights lights;
     session::SetAnimation animation;
+    std::optional<settings::PlacedLights> placed;
     std::optional<uint32_t> material_variant;
     std::optional<settings::Size> size;
     std::optional<bool> frozen;
@@ -81,6 +84,15 @@ Result<void> readGridSide(Asked& asked, std::string_view text) {
     return put(asked.gridSize().*Side, settings::parseNumber(text, kRange));
 }
 
+Result<void> readPlaced(Asked& asked, std::string_view text) {
+    auto placed = session::parseLightSet(text);
+    if (!placed) {
+        return Error{ErrorCode::kInvalidArgument, placed.error().message};
+    }
+    asked.placed = std::move(*placed);
+    return {};
+}
+
 Result<void> readSize(Asked& asked, std::string_view text) {
     return text.starts_with("auto@") ? Result<void>() : put(asked.size, settings::parseSize(text));
 }
@@ -113,6 +125,7 @@ constexpr std::array kRows{
         [](Asked& asked, auto text) {
             return put(asked.lights.time_s, settings::parseNumber(text, settings::kTimeRange));
         }},
+    Row{"placed_lights", readPlaced},
     Row{"light_box",
         [](Asked& asked, auto text) { return put(asked.lights.box, settings::parseBox(text)); }},
     Row{"material_variant", readNumber<&Asked::material_variant, kAnyNumber>},
@@ -260,6 +273,9 @@ viewOf(const session::SharedContext& scene, const Entries& entries, TimePoint no
     }
     if (!state) {
         return state;
+    }
+    if (asked.placed) {
+        state->settings.lights.placed = std::move(*asked.placed);
     }
     stand(*state, now, asked.lights.time_s.value_or(0));
     if (asked.animation.time_s) {

@@ -387,8 +387,10 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
     }
     if (work->piece_count == 0) {
         viewer.ask_again = now + kVariantsPoll;
+        viewer.noteCompiling(true, now);
         return false;
     }
+    viewer.noteCompiling(false, now);
     noteEstimate(viewer, *frame, *work);
     scheduler_.onFrame(id, now);
     frame->piece_count = work->piece_count;
@@ -480,6 +482,7 @@ void RenderLoop::end(Viewer& viewer, BegunFrame& frame) {
 }
 
 void RenderLoop::refuse(SessionId id, Viewer& viewer, const Error& error) {
+    viewer.noteCompiling(false, Clock::now());
     const settings::Size& size = viewer.state.settings.size;
     if (const auto count = viewer.noteRefusal(Clock::now())) {
         spdlog::warn("event=picture_refused session={} size={}x{} count={} reason={}", id,

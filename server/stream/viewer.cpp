@@ -9,6 +9,21 @@ Viewer::Viewer(const ViewerNews& first, std::shared_ptr<FramePipeline> its_pipel
     : sink(first.sink), pipeline(std::move(its_pipeline)), state(*first.state),
       beside(!first.account) {}
 
+void Viewer::noteCompiling(bool under_way, TimePoint now) {
+    constexpr std::chrono::milliseconds kNoticed{300};
+    if (!under_way) {
+        compiling_since.reset();
+    } else if (!compiling_since) {
+        compiling_since = now;
+    }
+    const bool tells = compiling_since && now - *compiling_since >= kNoticed;
+    if (std::exchange(told_compiling, tells) != tells) {
+        if (const auto told = sink.lock()) {
+            told->compiling(tells);
+        }
+    }
+}
+
 std::optional<TimePoint> Viewer::wantsFrameAt() const {
     if (leaving || blocked) {
         return {};

@@ -71,11 +71,16 @@ struct Viewer {
     TimePoint paced_until{};   // by the delivery's interval
     TimePoint shown_at{};      // of the frame begun last
     TimePoint ask_again{};     // nothing can begin before; see FrameWork::piece_count
+    std::optional<TimePoint> compiling_since; // shaders that the next picture needs
+    bool told_compiling = false;
     bool changed = true;
     bool blocked = false; // this state was refused; waits for another
     bool leaving = false;
     bool gave_up = false; // the last frame, because of what the viewer asked for meanwhile
 
+    // Shaders that the next picture needs are being compiled, or no longer. The connection hears of
+    // what takes long enough to be noticed.
+    void noteCompiling(bool under_way, TimePoint now);
     [[nodiscard]] bool idle() const { return under_way == 0 && pipeline->size() == 0; }
     [[nodiscard]] bool moves() const { return changed || state.animatingAt(shown_at); }
     // When the next frame is due, as far as that is up to this viewer; none: nothing is to be

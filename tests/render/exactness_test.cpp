@@ -211,7 +211,7 @@ TEST_F(Exactness, LightsThatTakeMinutes_AreRefused_AndTheNextFrameIsDrawn) {
         many.settings.light_loop = settings::LightLoop::kAllLights;
         const auto refused = view.submit(many);
         ASSERT_FALSE(refused);
-        EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
+        EXPECT_EQ(refused.error().code, ErrorCode::kTooLong);
     }
     EXPECT_EQ(differingFloats(before, draw(view, inputs)), 0U);
 }

@@ -23,6 +23,7 @@ class RecordingSink final : public session::FrameSink {
         std::vector<session::ReadyFrame> frames;
         std::vector<Refusal> refusals;
         std::vector<Error> not_encoded;
+        std::vector<bool> compiling;
         std::optional<Error> lost;
     };
 
@@ -33,6 +34,9 @@ class RecordingSink final : public session::FrameSink {
                 session::SessionState refused,
                 std::optional<session::SessionState> drawn) override {
         change([&] { record_.refusals.push_back({std::move(error), refused, drawn}); });
+    }
+    void compiling(bool under_way) override {
+        change([&] { record_.compiling.push_back(under_way); });
     }
     void notEncoded(Error error) override {
         change([&] { record_.not_encoded.push_back(std::move(error)); });

@@ -94,6 +94,20 @@ TEST_F(SceneSession, SceneThatIsThere_IsShownAtOnce) {
     EXPECT_THAT(news(guest), IsEmpty()); // told once
 }
 
+TEST_F(SceneSession, ShadersAreCompiled_IsToldOnce_AndItsEnd) {
+    const Guest guest = enter();
+    port_.sink()->compiling(true);
+    EXPECT_EQ(guest.ear->count<SceneNews>(), 1U);
+    auto messages = news(guest);
+    ASSERT_THAT(messages, SizeIs(1));
+    EXPECT_EQ(messages[0].loading().stage(), "compiling shaders");
+    EXPECT_THAT(news(guest), IsEmpty());
+    port_.sink()->compiling(false);
+    messages = news(guest);
+    ASSERT_THAT(messages, SizeIs(1));
+    EXPECT_EQ(messages[0].loading().stage(), "");
+}
+
 TEST_F(SceneSession, SceneThatIsLoaded_IsShownWhenItIsThere) {
     const Guest guest = enter();
     ASSERT_TRUE(select(guest, "fox"));

@@ -92,6 +92,7 @@ TEST(StillView, WhatNoSettingHolds_IsRead) {
                              {"light_box", "-1,-1,-1;1,2,3"},
                              {"material_variant", "2"},
                              {"toon_fragment", "0,0,1;1,1,1"},
+                             {"placed_lights", R"({"lights":[{"id":7,"position":{"x":1}}]})"},
                              {"debug_frozen", "1"}})
                            .value();
     const settings::ViewSettings& settings = state.settings;
@@ -104,6 +105,8 @@ TEST(StillView, WhatNoSettingHolds_IsRead) {
     EXPECT_EQ(settings.lights.box->max, glm::dvec3(1, 2, 3));
     EXPECT_EQ(settings.material_variant, 2U);
     EXPECT_EQ(settings.toon_fragment.count, 2U);
+    EXPECT_NE(settings.lights.placed.find(7), nullptr);
+    EXPECT_TRUE(view({{"placed_lights", "{}"}})->settings.lights.placed.lights().empty());
     EXPECT_TRUE(settings.debug.grid_camera);
     EXPECT_FALSE(state.followed);
 }
@@ -140,6 +143,8 @@ TEST(StillView, BadEntries_AreToldWhatWouldBeRight) {
     expectRefused({{"size", "1x1"}}, RejectCode::kOutOfRange, "WIDTHxHEIGHT");
     expectRefused({{"eye", "1,2"}}, RejectCode::kOutOfRange, "\"x,y,z\" in metres");
     expectRefused({{"eye", "0,2,0"}, {"target", "0,2,0"}}, RejectCode::kOutOfRange, "focus");
+    expectRefused({{"placed_lights", "{"}}, RejectCode::kOutOfRange, "placed_lights: ");
+    expectRefused({{"placed_lights", R"({"remove":[1]})"}}, RejectCode::kOutOfRange, "lights");
     expectRefused({{"fov_deg", "200"}}, RejectCode::kOutOfRange, "fov_deg: '200' is not");
     expectRefused({{"fov_deg", "60"}, {"half_height", "3"}}, RejectCode::kOutOfRange,
                   "a camera has one of them");

@@ -53,8 +53,17 @@ TEST_F(RenderLoopPiecesTest, ShadersAreBeingMade_IsAskedAgain_WhileOthersAreDraw
     ASSERT_TRUE(first->waitForFrames(1));
     settle();
     EXPECT_EQ(device_->unready_count, 0U);
+    EXPECT_TRUE(first->record().compiling.empty()) << "nobody would notice";
     EXPECT_EQ(first->frames().size(), 1U);
     EXPECT_EQ(device_->begun_count, 2U); // one of them prices it
+}
+
+TEST_F(RenderLoopPiecesTest, ShadersThatTakeLong_AreTold_AndTheirEnd) {
+    device_->unready_count = 40; // asked for each 20 ms
+    const auto sink = makeSink();
+    join(sink, still(), 1);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    EXPECT_EQ(sink->record().compiling, (std::vector{true, false}));
 }
 
 TEST_F(RenderLoopPiecesTest, HostBuildsInStages_OthersAreDrawnBetween) {
