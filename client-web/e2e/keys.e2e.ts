@@ -168,7 +168,7 @@ it('WindowOnAnotherScreen_TheSizeFollowsItsPixels', async () => {
   await viewer.stateWith('320 × 180', ({ width, height }) => width === 320 && height === 180);
 });
 
-it('Fingers_OneOrbits_TwoZoom_AndNothingIsLeftOverWhenTheyLift', async () => {
+it('Fingers_OneTurns_TwoZoom_AndNothingIsLeftOverWhenTheyLift', async () => {
   const viewer = await pages.open(kStill, { hasTouch: true });
   const devtools = await viewer.page.context().newCDPSession(viewer.page);
   type Type = 'touchStart' | 'touchMove' | 'touchEnd';
@@ -180,19 +180,19 @@ it('Fingers_OneOrbits_TwoZoom_AndNothingIsLeftOverWhenTheyLift', async () => {
   await touch('touchMove', [700, 320]);
   await moves(viewer, 1);
   await viewer.settled();
-  const orbited = lastPose(viewer);
+  const turned = lastPose(viewer);
   await touch('touchStart', [700, 320], [800, 320]);
   await touch('touchMove', [650, 320], [850, 320]);
   await until('a nearer camera', () => {
     const { eye, target } = lastPose(viewer);
-    return distance(eye, target) < 0.9 * distance(orbited.eye, orbited.target);
+    return distance(eye, target) < 0.9 * distance(turned.eye, turned.target);
   });
   await touch('touchEnd'); // one of two: input.test.ts
   await viewer.settled();
   const pinched = lastPose(viewer);
   await touch('touchStart', [650, 320]);
   await touch('touchMove', [690, 320]);
-  await until('an orbit', () => distance(lastPose(viewer).eye, pinched.eye) > 0);
+  await until('a turn', () => distance(lastPose(viewer).target, pinched.target) > 0);
   await viewer.settled();
   const { eye, target } = lastPose(viewer);
   expect(distance(eye, target) / distance(pinched.eye, pinched.target)).toBeCloseTo(1, 5);

@@ -1,10 +1,12 @@
 // The report of `froxel bench` as a reader opens it: one file, no network.
 
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
+import type { AxeResults } from 'axe-core';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
@@ -12,6 +14,7 @@ import { kSamplePath, sample } from '../test/report/fakes';
 import { launch } from './chromium';
 import { until } from './viewer';
 
+const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const kTemplate = fileURLToPath(new URL('../dist/report.html', import.meta.url));
 const kPlace = '<script type="application/json" id="results">null</script>';
 
@@ -103,6 +106,29 @@ describe('report', () => {
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width);
     expect(complaints).toEqual([]);
     expect(fetched).toEqual([pathToFileURL(filled).href]);
+    await page.context().close();
+  });
+
+  it.each(['light', 'dark'] as const)('EveryText_HasItsContrast_%s', async (scheme) => {
+    const { page } = await open(filled, 1240, scheme);
+    await until('the plots', async () => (await page.locator('.plot svg').count()) > 1);
+    await page.evaluate(() => document.querySelectorAll('details').forEach((fold) => (fold.open = true)));
+    await page.evaluate(kAxe);
+    const found = await page.evaluate(() =>
+      (globalThis as unknown as { axe: { run(at: Document, how: object): Promise<AxeResults> } }).axe.run(document, {
+        runOnly: ['color-contrast'],
+      }),
+    );
+    expect(found.violations.flatMap(({ nodes }) => nodes.map(({ html, failureSummary }) => `${html} ${failureSummary ?? ''}`))).toEqual([]);
+    expect(found.passes.flatMap(({ nodes }) => nodes).length).toBeGreaterThan(50);
+    await page.context().close();
+  });
+
+  it('FiguresOfOthers_AreLast_AndFolded', async () => {
+    const { page } = await open(filled, 1240, 'light');
+    await until('the sections', async () => (await page.locator('#published').count()) > 0);
+    expect(await page.locator('#report > section').last().getAttribute('id')).toBe('published');
+    expect(await page.locator('#published table').first().isVisible()).toBe(false);
     await page.context().close();
   });
 

@@ -29,7 +29,8 @@ const kSteady = `
   #looks-list img { opacity: 0; }
   html, body { background: #56606e; }
   * { caret-color: transparent !important; transition: none !important; scrollbar-width: none !important; }
-  #banner-aside, #about { display: none; }
+  #banner-aside, #about, #hint { display: none; }
+  #stats-head .moving { display: inline !important; }
   #stats-head b { width: 3ch; visibility: hidden; }
   #stats-list dd, #passes-bar, #graph, #passes-table td, #stats-stages { visibility: hidden; font-size: 0; }
   progress { visibility: hidden; }
@@ -147,7 +148,7 @@ it('Connecting', async () => {
       performance.getEntriesByType('resource').some(({ name }) => name.includes('decode_worker')),
     ),
   );
-  expect(await viewer.fetchedBytes()).toBeLessThan(60_000);
+  expect(await viewer.fetchedBytes()).toBeLessThan(62_000);
   await looksAsItShould('connecting');
 });
 
@@ -167,7 +168,7 @@ it('Full_BeforeTheFirstPicture', async () => {
     page.onMessage(() => void stay().then(() => page.close({ code: 4029 })));
   };
   await open();
-  await viewer.told('Every place on this server is taken.');
+  await viewer.told('Every place on this server is taken. One is free when a viewer leaves.');
   await looksAsItShould('full');
 });
 

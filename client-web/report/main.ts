@@ -12,8 +12,8 @@ function show(results: Results): void {
   const sections: Section[] = [
     errorSection(results, clock),
     ...results.sweeps.map((sweep) => sweepSection(results, sweep)),
-    ...(results.published.length > 0 ? [publishedSection(results)] : []),
     methodSection(results),
+    ...(results.published.length > 0 ? [publishedSection(results)] : []),
   ];
   const report = element('report', HTMLElement);
   const links = make('ul');

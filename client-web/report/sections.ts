@@ -266,8 +266,11 @@ export function publishedSection(results: Results): Section {
     'Published figures of others',
     'On their hardware, with their scene: shapes may be compared, times may not.',
   );
+  const fold = make('details');
+  fold.append(make('summary', `${results.published.length} series`));
+  section.append(fold);
   for (const line of results.published) {
-    section.append(
+    fold.append(
       make('h3', `${line.source}: ${words(line.series)}`),
       make('p', `${line.hardware}. ${line.note}`, 'about'),
       table(line.rows, [

@@ -8,6 +8,9 @@ export interface Doings {
   readonly panel: () => void;
   readonly looks: () => void;
   readonly scenes: () => void;
+  readonly renderers: () => void;
+  readonly pictures: () => void;
+  readonly room: () => void;
   readonly figures: () => void;
   readonly screenshot: () => void;
   readonly copyLink: () => void;
@@ -18,6 +21,8 @@ export interface Doings {
   readonly playing: () => void;
   readonly nextRenderer: () => void;
   readonly addLight: () => void;
+  readonly home: () => void;
+  readonly fit: () => void;
   readonly reset: () => void;
   readonly sceneCamera: (index: number) => void;
   readonly look: (look: Look) => void;
@@ -38,8 +43,11 @@ export function actionsOf(does: Doings): readonly Entry[] {
     action('Looks', 'v', does.looks, 'Shows looks to choose from, and keeps this one', 'preset style mood theme'),
     action('Scenes', 'g', does.scenes, 'Shows the scenes of this server to choose from', 'gallery models files open'),
     action('Figures', 'f', does.figures, 'Shows where the time of a frame goes', 'statistics passes latency fps'),
-    action('Save picture', 'p', does.screenshot, 'Saves the picture as a PNG file', 'screenshot image download'),
+    action('Renderers', 'n', does.renderers, 'Shows the five renderers to choose from', 'forward deferred naive toon clustered'),
+    action('Save picture', 'p', does.screenshot, 'Saves the picture as it is shown, as a PNG file', 'screenshot image download'),
+    action('Save picture in a size', '', does.pictures, 'Has the server draw this view in a size of your own', 'screenshot image download resolution 4k'),
     action('Copy link', 'l', does.copyLink, 'Copies a link to this very view', 'share url address'),
+    action('Room', 'm', does.room, 'Opens a room that others watch by its link, or shows the one that this is', 'share together control watch'),
     action('Full screen', '', does.fullscreen, 'Fills the screen, or leaves it'),
     action('Help', '?', does.help, 'Says how mouse, touch and keys move the view', 'keys shortcuts about'),
     action('Move or stop lights', ' ', does.lights, 'Moves the lights, or stops them', 'pause animate'),
@@ -47,7 +55,9 @@ export function actionsOf(does: Doings): readonly Entry[] {
     action('Next renderer', 'r', does.nextRenderer, 'Draws with the next of the five renderers', 'toon deferred forward naive'),
     action('Add a light', '', does.addLight, 'Puts a light before the camera', 'new place'),
     action('Record commands', 'x', does.record, 'Records what this page sends as a script for froxel load; again to end', 'script load test'),
-    action('Back to defaults', '', does.reset, 'Sets everything as the server had it at first', 'reset'),
+    action('Home', 'h', does.home, 'Goes back to the first view of the scene', 'reset view camera start'),
+    action('Fit', 'o', does.fit, 'Moves back or closer until all of the scene is in the picture', 'frame all overview zoom everything'),
+    action('Back to defaults', '', does.reset, 'Sets everything as the server had it at first', 'reset settings'),
   ];
 }
 

@@ -2,15 +2,18 @@
 
 import type { AnimationActions } from './cards/animation_card';
 import type { LookActions } from './cards/looks_card';
+import type { PictureActions } from './cards/picture_card';
+import type { RendererActions } from './cards/renderers_card';
 import type { RoomActions } from './cards/room_card';
+import { download, fileName } from './core/download';
 import { kMissing, Later } from './core/later';
+import type { Size } from './core/size';
 import { add, length, normalize, scale, sub } from './core/vec3';
-import { RendererSchema } from './gen/froxel/v1/common_pb';
+import type { Renderer } from './gen/froxel/v1/common_pb';
 import type { PanelActions } from './panel/panel';
-import { download, type Picture } from './picture/picture';
+import type { Picture } from './picture/picture';
 import type { Connection } from './protocol/connection';
 import type { Recorder } from './protocol/recorder';
-import { choicesOf } from './protocol/schema_names';
 import { isUint32, type Field } from './settings/field';
 import { patchFor } from './settings/fields';
 import {
@@ -22,23 +25,41 @@ import {
   type PlacedLight,
 } from './settings/placed_lights';
 import { cameraCommand, settingCommands } from './settings/setting_commands';
-import type { Settings, Value } from './settings/settings';
+import { cameraOf, type Settings, type Value } from './settings/settings';
+import { centreOf, diagonalOf, fitted, isInside } from './settings/sight';
 import { parseAddress, stillAddress } from './state/address';
+import { kRenderers, rendererLabel } from './state/renderers';
 import { dropLook, isLook, keepLook, lookAddress, offeredLooks, ownLooks, type Look } from './state/looks';
 import { mayControl, roomText } from './state/room';
 import type { SizeMode } from './state/size_policy';
 import type { Store } from './state/store';
-import type { Pose } from './steering/camera_controller';
+import { withinReach, type Pose } from './steering/camera_controller';
 import type { InputTarget, View } from './steering/input';
 
 /** Seconds that flying through a scene from end to end takes. */
 const kFlightSeconds = 12;
+/** How far from its middle a view may go, in diagonals of the scene. */
+const kReachDiagonals = 3;
+/** The nearest that a zoom comes to its target: the lesser of the two. */
+const kClosestM = 0.05;
+const kClosestDiagonals = 1e-3;
+/** The size of a small still. */
+const kSmallStill = '236x133';
 /** How far before the eye a new light is put, at most. */
 const kAheadM = 4;
 
-export class Commands implements PanelActions, InputTarget, RoomActions, AnimationActions, LookActions {
-  private readonly lightSetFile = new Later(
-    () => import('./settings/light_set_file'),
+export class Commands
+  implements
+    PanelActions,
+    InputTarget,
+    RoomActions,
+    AnimationActions,
+    LookActions,
+    PictureActions,
+    RendererActions
+{
+  private readonly lightSet = new Later(
+    () => import('./settings/light_set'),
     () => this.refuse(kMissing),
   );
   private readonly scriptFile = new Later(
@@ -55,7 +76,6 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
 
   /** What files are written by is there when it is asked for. */
   prefetch(): void {
-    this.lightSetFile.ahead();
     this.scriptFile.ahead();
   }
 
@@ -113,7 +133,7 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
   }
 
   async loadLights(file: Blob & { readonly name: string }): Promise<void> {
-    const reader = await this.lightSetFile.want();
+    const reader = await this.lightSet.want();
     if (!reader) return;
     try {
       this.edit({ placedLights: reader.lightSetOf(await file.text()) });
@@ -123,7 +143,7 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
   }
 
   async saveLights(): Promise<void> {
-    const writer = await this.lightSetFile.want();
+    const writer = await this.lightSet.want();
     const { settings } = this.store.state;
     if (!settings || !writer) return;
     const json = new Blob([writer.lightSetText(settings.placedLights)], { type: 'application/json' });
@@ -144,6 +164,23 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
     if (!server) return;
     const { width, height } = this.store.state.settings ?? server.initial;
     this.edit({ ...server.initial, width, height });
+    if (server.initial.followedCamera !== '') this.home();
+  }
+
+  /** The scene's first view. */
+  home(): void {
+    const { server } = this.store.state;
+    if (!server) return;
+    const { followedCamera } = server.initial;
+    if (followedCamera !== '') this.selectCamera(followedCamera);
+    else this.edit(cameraOf(server.initial));
+  }
+
+  /** All of the scene, seen from the side that it is seen from now. */
+  fit(): void {
+    const { server, settings } = this.store.state;
+    if (!server?.bounds || !settings) return;
+    this.edit(fitted(cameraOf(settings), settings.width / settings.height, server.bounds));
   }
 
   /** The server's first. */
@@ -159,7 +196,8 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
 
   lookPicture(look: Look): string {
     const { server, settings } = this.store.state;
-    return settings === null ? '' : `render?${stillAddress(settings, server?.scene?.id ?? '', look.address)}`;
+    const over = `${look.address}&size=${kSmallStill}`;
+    return settings === null ? '' : `render?${stillAddress(settings, server?.scene?.id ?? '', over)}`;
   }
 
   newestSeq(): bigint {
@@ -190,9 +228,11 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
     this.store.dispatch({ type: 'sent', seq, settings: sent });
   }
 
-  /** The server's id of a scene. The one that is shown calls off one that is on its way. */
+  /** The server's id of a scene. The one that is shown calls off one that is on its way, or else begins anew. */
   selectScene(scene: string): void {
     if (!this.allowed()) return;
+    const { server, sceneLoading } = this.store.state;
+    if (scene === server?.scene?.id && !sceneLoading) this.home();
     this.store.dispatch({ type: 'want_scene', scene });
   }
 
@@ -206,15 +246,36 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
     if (settings) this.edit({ animate: !settings.animate });
   }
 
+  renderer(): Renderer | null {
+    return this.store.state.settings?.renderer ?? null;
+  }
+
+  chooseRenderer(renderer: Renderer): void {
+    if (!this.allowed()) return;
+    this.edit({ renderer });
+    this.store.dispatch({ type: 'notice', tone: 'info', text: `Drawn by: ${rendererLabel(renderer)}.` });
+  }
+
   nextRenderer(): void {
     const { settings } = this.store.state;
     if (!settings) return;
-    const values = choicesOf(RendererSchema).map(({ value }) => value);
-    const next = values[(values.indexOf(settings.renderer) + 1) % values.length];
-    if (next !== undefined) this.edit({ renderer: next });
+    const at = kRenderers.findIndex(({ renderer }) => renderer === settings.renderer);
+    const next = kRenderers[(at + 1) % kRenderers.length];
+    if (next) this.chooseRenderer(next.renderer);
   }
 
-  async screenshot(): Promise<void> {
+  pictureSize(): Size | null {
+    return this.picture.size();
+  }
+
+  still({ width, height }: Size): { path: string; file: string } {
+    const { server, settings } = this.store.state;
+    const over = `size=${width}x${height}&format=png`;
+    const query = settings === null ? over : stillAddress(settings, server?.scene?.id ?? '', over);
+    return { path: `render?${query}`, file: fileName('png') };
+  }
+
+  async saveShown(): Promise<void> {
     const png = await this.picture.png();
     if (!png) {
       this.refuse('There is no picture to save yet.');
@@ -260,33 +321,57 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
     return mayControl(room) ? settings : null;
   }
 
-  setPose({ eye, target, up }: Pose): void {
+  refused(): void {
+    this.allowed();
+  }
+
+  setPose(pose: Pose): void {
+    const { server, settings } = this.store.state;
+    const bounds = server?.bounds;
+    const reach = bounds && { centre: centreOf(bounds), radiusM: kReachDiagonals * this.diagonalM() };
+    const { eye, target, up } = reach && settings ? withinReach(settings, pose, reach) : pose;
     this.edit({ eye, target, up });
   }
 
-  setHalfHeight(halfHeight: number): void {
-    this.edit({ halfHeight });
+  setHalfHeight(wanted: number): void {
+    const { halfHeight } = this.store.state.settings ?? { halfHeight: wanted };
+    const [least, most] = [kClosestDiagonals * this.diagonalM(), kReachDiagonals * this.diagonalM()];
+    // Who is beyond may come back.
+    this.edit({ halfHeight: Math.max(Math.min(least, halfHeight), Math.min(Math.max(most, halfHeight), wanted)) });
   }
 
   flySpeed(): number {
+    return this.diagonalM() / kFlightSeconds;
+  }
+
+  closestM(): number {
+    return Math.min(kClosestM, kClosestDiagonals * this.diagonalM());
+  }
+
+  /** A scene that begins inside itself is a room, and the eye may have left it. */
+  isInRoom(): boolean {
+    const { server, settings } = this.store.state;
+    if (!server?.bounds || !settings) return false;
+    return isInside(server.bounds, server.initial.eye) && isInside(server.bounds, settings.eye);
+  }
+
+  /** Of the scene; 1 where it has no extent. */
+  private diagonalM(): number {
     const bounds = this.store.state.server?.bounds;
-    return bounds ? length(sub(bounds.max, bounds.min)) / kFlightSeconds : 1;
+    const diagonal = bounds ? diagonalOf(bounds) : 0;
+    return diagonal > 0 ? diagonal : 1;
   }
 
   /** Who watches a room is told so rather than left to wonder. */
   private allowed(): boolean {
     const { room } = this.store.state;
     if (room === null || mayControl(room)) return true;
-    this.store.dispatch({ type: 'notice', tone: 'info', text: roomText(room) });
+    const text = `${roomText(room)} Ask for control to move it.`;
+    this.store.dispatch({ type: 'notice', tone: 'info', text });
     return false;
   }
 
   private refuse(text: string): void {
     this.store.dispatch({ type: 'notice', tone: 'error', text });
   }
-}
-
-function fileName(extension: string): string {
-  const stamp = new Date().toISOString().slice(0, 19).replaceAll(':', '-');
-  return `froxel-${stamp}.${extension}`;
 }

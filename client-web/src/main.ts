@@ -5,7 +5,9 @@ import type { AnimationCard } from './cards/animation_card';
 import { Banner } from './cards/banner';
 import { Legend } from './cards/legend';
 import type { LooksCard } from './cards/looks_card';
-import { RoomCard } from './cards/room_card';
+import type { PictureCard } from './cards/picture_card';
+import type { RenderersCard } from './cards/renderers_card';
+import type { RoomCard } from './cards/room_card';
 import type { ScenesCard } from './cards/scenes_card';
 import type { SearchCard } from './cards/search_card';
 import { TokenPrompt } from './cards/token_prompt';
@@ -27,6 +29,7 @@ import { Recorder } from './protocol/recorder';
 import { askRefusal } from './protocol/refusal';
 import { Resume, tabShelf } from './protocol/resume';
 import { ServerFiles } from './protocol/server_files';
+import { sameView } from './settings/setting_commands';
 import { toVec, type Settings } from './settings/settings';
 import { AddressKeeper } from './state/address_keeper';
 import { mayControl, roomFromAddress } from './state/room';
@@ -40,7 +43,7 @@ import { SceneWarnings } from './stats/scene_warnings';
 import { Stats } from './stats/stats';
 import { StatsCard } from './stats/stats_card';
 import { CanvasInput } from './steering/input';
-import { LightHandles } from './steering/light_handles';
+import type { LightHandles } from './steering/light_handles';
 
 const kPrefetchMs = 1_000; // after the first picture
 const kMinorOfPause = 2; // protocol_minor since which a server knows Pause
@@ -78,7 +81,10 @@ const presenter = new Presenter({
       const pose = { eye: toVec(eye), target: toVec(target), up: toVec(up) };
       store.dispatch({ type: 'camera_moved', appliedSeq: header.appliedSeq, pose });
     }
-    if (banner.pictureShown()) setTimeout(prefetch, kPrefetchMs);
+    if (banner.pictureShown(header)) {
+      setTimeout(prefetch, kPrefetchMs);
+      if (mayControl(store.state.room)) void showDragHint();
+    }
   },
   problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
   lostSync,
@@ -102,7 +108,9 @@ const connection = new Connection(
         resume.keep(''); // a session does not move
         connection.leave(body.value.deadlineMs, body.value.reconnectUrl);
       }
+      const before = store.state.confirmed;
       store.dispatch({ type: 'received', message });
+      if (body.case === 'state') stats.answered(body.value.refSeq, !isSame(before, store.state.confirmed));
     },
     frame: (frame, bytes) => {
       stats.received(bytes, nowMs());
@@ -130,7 +138,7 @@ const connection = new Connection(
 );
 
 const commands = new Commands(store, connection, picture, recorder);
-const handles = new LightHandles(element('handles', HTMLElement), canvas, commands);
+const handles = new Later(makeHandles, partMissing);
 const statsCard = new StatsCard(stats, { droppedHere: () => presenter.droppedCount, partMissing });
 const panel = new Later(makePanel, partMissing);
 const banner = new Banner({
@@ -143,11 +151,13 @@ const banner = new Banner({
   lagMs: () => (document.hidden ? 0 : stats.lagMs(nowMs())),
   nowMs,
 });
-const roomCard = new RoomCard(commands);
+const roomCard = new Later(makeRoom, partMissing);
 const animationCard = new Later(makeAnimation, partMissing);
 const files = new ServerFiles(() => token.value);
 const looksCard = new Later(makeLooks, partMissing);
 const scenesCard = new Later(makeScenes, partMissing);
+const renderersCard = new Later(makeRenderers, partMissing);
+const pictureCard = new Later(makePictures, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
@@ -164,9 +174,9 @@ const address = new AddressKeeper(store, () => codecs, wishes);
 store.listen((state) => {
   panel.here?.show(state);
   banner.show(state);
-  roomCard.show(state.room);
+  roomCard.here?.show(state.room);
   animationCard.here?.show(state);
-  handles.show(state);
+  handles.here?.show(state);
   element('panel', HTMLElement).inert = !mayControl(state.room);
 });
 store.listen(({ link }, before) => {
@@ -176,6 +186,9 @@ store.listen((state, before) => {
   const [now, then] = [state.settings, before.settings];
   if (state.server === before.server && now?.renderer === then?.renderer && now?.lights === then?.lights) return;
   canvas.setAttribute('aria-label', pictureLabel(state));
+});
+store.listen(({ room }, before) => {
+  if (room && !before.room) void roomCard.want().then((card) => card?.show(store.state.room));
 });
 store.listen(({ sentSeq }, before) => {
   if (sentSeq !== before.sentSeq) stats.asked(sentSeq, nowMs());
@@ -195,6 +208,8 @@ store.listen(({ server }, before) => {
   sceneWarnings.show(server.scene);
   if (server.scene?.animations.length) void animationCard.want().then((card) => card?.show(store.state));
 });
+
+const isSame = (a: Settings | null, b: Settings | null): boolean => a !== null && b !== null && sameView(a, b);
 
 async function makePanel(): Promise<Panel> {
   const [{ Panel }, { fetchWords }] = await Promise.all([
@@ -216,6 +231,48 @@ async function makeLooks(): Promise<LooksCard> {
     import('./style/looks.css'),
   ]);
   return new LooksCard(commands, lookCosts, files);
+}
+
+async function makeRenderers(): Promise<RenderersCard> {
+  const [{ RenderersCard }] = await Promise.all([
+    import('./cards/renderers_card'),
+    import('./style/renderers.css'),
+  ]);
+  return new RenderersCard(commands, lookCosts);
+}
+
+async function makePictures(): Promise<PictureCard> {
+  const [{ PictureCard }] = await Promise.all([
+    import('./cards/picture_card'),
+    import('./style/renderers.css'),
+  ]);
+  return new PictureCard(commands, files);
+}
+
+async function makeRoom(): Promise<RoomCard> {
+  const { RoomCard } = await import('./cards/room_card');
+  return new RoomCard(commands, {
+    enterRoom: (name) => {
+      address.write();
+      const to = new URL(location.href);
+      if (name === '') to.searchParams.delete('room');
+      else to.searchParams.set('room', name);
+      location.assign(to);
+    },
+    copyRoomLink: (name) => void address.copyRoom(name),
+  });
+}
+
+async function makeHandles(): Promise<LightHandles> {
+  const { LightHandles } = await import('./steering/light_handles');
+  const made = new LightHandles(element('handles', HTMLElement), canvas, commands);
+  made.show(store.state);
+  return made;
+}
+
+async function showDragHint(): Promise<void> {
+  const part = await import('./cards/drag_hint').catch(() => null); // nobody waits for a hint
+  if (part) new part.DragHint().pictureShown();
 }
 
 async function makeAnimation(): Promise<AnimationCard> {
@@ -244,8 +301,11 @@ async function makeSearch(): Promise<SearchCard> {
 
 /** Nobody waits for these when they are wanted, and they open when the server is gone, too. */
 function prefetch(): void {
+  handles.ahead();
   panel.ahead();
+  roomCard.ahead();
   looksCard.ahead();
+  renderersCard.ahead();
   if (hasScenes()) scenesCard.ahead();
   searchCard.ahead();
   statsCard.prefetch();
@@ -286,7 +346,10 @@ const doings: Doings = {
     else store.dispatch({ type: 'notice', tone: 'info', text: 'This server has one scene.' });
   },
   figures: () => statsCard.toggle(),
-  screenshot: () => void commands.screenshot(),
+  renderers: () => void renderersCard.want().then((card) => card?.toggle()),
+  pictures: () => void pictureCard.want().then((card) => card?.toggle()),
+  room: () => void roomCard.want().then((card) => card?.toggle()),
+  screenshot: () => void commands.saveShown(),
   copyLink: () => void address.copy(),
   fullscreen: () => void toggleFullscreen(),
   help: () => (help.open ? help.close() : help.showModal()),
@@ -297,8 +360,13 @@ const doings: Doings = {
   },
   lights: () => commands.toggleLights(),
   playing: () => animationCard.here?.toggle(),
-  nextRenderer: () => commands.nextRenderer(),
+  nextRenderer: () => {
+    renderersCard.here?.noteCost();
+    commands.nextRenderer();
+  },
   addLight: () => commands.addLight(),
+  home: () => commands.home(),
+  fit: () => commands.fit(),
   reset: () => commands.resetAll(),
   sceneCamera: (index) => commands.selectCameraAt(index),
   look: (look) => commands.applyLook(look),
@@ -315,9 +383,12 @@ const tools: readonly (readonly [string, () => void])[] = [
   ['tool-search', doings.search],
   ['tool-panel', doings.panel],
   ['tool-scenes', doings.scenes],
+  ['tool-renderers', doings.renderers],
   ['tool-looks', doings.looks],
-  ['tool-screenshot', doings.screenshot],
+  ['tool-home', doings.home],
+  ['tool-screenshot', doings.pictures],
   ['tool-link', doings.copyLink],
+  ['tool-room', doings.room],
   ['tool-fullscreen', doings.fullscreen],
   ['tool-help', doings.help],
   ['tool-record', doings.record],

@@ -1,6 +1,7 @@
 // Says how it stands, and how far the first picture is. Words from the server are set as text, never as HTML.
 
 import { element } from '../core/dom';
+import type { FrameHeader } from '../gen/froxel/v1/server_pb';
 import type { Remedy } from '../protocol/connection';
 import { kInitialState, type AppState } from '../state/app_state';
 import { standingOf, type Standing } from '../state/standing';
@@ -14,6 +15,7 @@ export interface BannerActions {
 
 const kTickMs = 250;
 const kInfoMs = 4_000;
+const kErrorMs = 15_000;
 
 /** Only what changes: a screen reader says each change. */
 function say(element: HTMLElement, text: string): void {
@@ -31,7 +33,7 @@ export class Banner {
   private readonly progressBar = element('progress-bar', HTMLProgressElement);
   private state: AppState = kInitialState;
   private remedy: Remedy | null = null;
-  private hasPicture = false;
+  private shown: FrameHeader | null = null; // of the picture that is shown
   private expiry: ReturnType<typeof setTimeout> | undefined;
 
   constructor(private readonly actions: BannerActions) {
@@ -42,11 +44,11 @@ export class Banner {
   }
 
   /** A picture is there: from now on trouble shows over it. Whether it is the first. */
-  pictureShown(): boolean {
-    if (this.hasPicture) return false;
-    this.hasPicture = true;
-    this.draw();
-    return true;
+  pictureShown(header: FrameHeader): boolean {
+    const first = this.shown === null;
+    this.shown = header;
+    if (first) this.draw();
+    return first;
   }
 
   show(state: AppState): void {
@@ -57,14 +59,13 @@ export class Banner {
 
   private expire({ notice }: AppState): void {
     clearTimeout(this.expiry);
-    if (notice?.tone === 'info' && !notice.stays) {
-      this.expiry = setTimeout(this.actions.remedies.dismiss, kInfoMs);
-    }
+    if (!notice || notice.stays) return;
+    this.expiry = setTimeout(this.actions.remedies.dismiss, notice.tone === 'info' ? kInfoMs : kErrorMs);
   }
 
   private draw(): void {
-    const { hasPicture, actions } = this;
-    const moment = { nowMs: actions.nowMs(), hasPicture, lagMs: actions.lagMs() };
+    const { shown, actions } = this;
+    const moment = { nowMs: actions.nowMs(), hasPicture: shown !== null, lagMs: actions.lagMs(), shown };
     const standing = standingOf(this.state, moment);
     this.canvas.classList.toggle('stale', standing.dims);
     this.remedy = standing.remedy;

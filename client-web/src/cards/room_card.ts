@@ -1,4 +1,4 @@
-// The card that says who is in the room, with the buttons that move control about.
+// The card of the room: opens one, says who is there, and has the buttons that move control about.
 
 import { element, make } from '../core/dom';
 import { isAsking, roomText, type Member, type Room } from '../state/room';
@@ -9,27 +9,65 @@ export interface RoomActions {
   giveControl(memberId: bigint): void;
 }
 
+/** What changes the page's address. */
+export interface RoomDoors {
+  /** Goes there with this view; empty: goes on alone. */
+  enterRoom(name: string): void;
+  copyRoomLink(name: string): void;
+}
+
+const kAlone = 'A room is one view for all who open its link. One of them controls it at a time.';
+
 export class RoomCard {
   private readonly card = element('room', HTMLElement);
   private readonly text = element('room-text', HTMLElement);
+  private readonly form = element('room-form', HTMLFormElement);
+  private readonly name = element('room-name', HTMLInputElement);
+  private readonly buttons = element('room-buttons', HTMLElement);
   private readonly request = element('room-request', HTMLButtonElement);
   private readonly release = element('room-release', HTMLButtonElement);
   private readonly list = element('room-members', HTMLUListElement);
   private shown: Room | null = null;
+  private open: boolean | null = null; // null: nobody chose, so it is where there is a room
 
-  constructor(private readonly actions: RoomActions) {
+  constructor(
+    private readonly actions: RoomActions,
+    doors: RoomDoors,
+  ) {
     this.request.addEventListener('click', () => actions.requestControl());
     this.release.addEventListener('click', () => actions.releaseControl());
+    element('room-link', HTMLButtonElement).addEventListener('click', () => doors.copyRoomLink(this.shown?.name ?? ''));
+    element('room-leave', HTMLButtonElement).addEventListener('click', () => doors.enterRoom(''));
+    this.form.addEventListener('submit', (event) => {
+      event.preventDefault();
+      doors.enterRoom(this.name.value);
+    });
+    this.draw(null);
+  }
+
+  toggle(): void {
+    this.open = this.card.hidden;
+    this.card.hidden = !this.open;
+    if (!this.open || this.shown) return;
+    this.name.value = `room-${Math.random().toString(36).slice(2, 8)}`;
+    this.name.select();
+    this.name.focus();
   }
 
   show(room: Room | null): void {
     if (room === this.shown) return;
     this.shown = room;
-    this.card.hidden = room === null;
+    this.card.hidden = !(this.open ?? room !== null);
+    this.draw(room);
+  }
+
+  private draw(room: Room | null): void {
+    this.form.hidden = room !== null;
+    this.buttons.hidden = this.list.hidden = room === null;
+    this.text.textContent = room ? roomText(room) : kAlone;
     if (!room) return;
     const controls = room.controller === room.you;
     const asks = isAsking(room);
-    this.text.textContent = roomText(room);
     this.request.hidden = controls || asks;
     this.request.textContent = room.controller === 0n ? 'Take control' : 'Ask for control';
     this.release.hidden = !controls && !asks;

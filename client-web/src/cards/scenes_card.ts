@@ -19,7 +19,8 @@ interface Row {
   readonly bytes: number;
   readonly state: string;
   readonly thumb: string; // path of its picture
-  readonly holds?: Readonly<Record<'triangles' | 'lights' | 'animations', number>>;
+  readonly modified?: number; // seconds since 1970; absent: it is no file
+  readonly holds?: Readonly<Record<'file_bytes' | 'triangles' | 'lights' | 'animations', number>>;
 }
 
 interface Listing {
@@ -35,6 +36,7 @@ export class ScenesCard {
   private readonly list = element('scenes-list', HTMLElement);
   private readonly search = element('scenes-search', HTMLInputElement);
   private readonly said = element('scenes-said', HTMLElement);
+  private readonly order = element('scenes-order', HTMLSelectElement);
   private rows: readonly Row[] = [];
   /** Pictures and facts are fetched of what is in sight: a picture may need the scene loaded. */
   private readonly seen = new IntersectionObserver((entries) => {
@@ -53,6 +55,7 @@ export class ScenesCard {
   ) {
     closeBeside(this.dialog);
     this.search.addEventListener('input', () => this.show());
+    this.order.addEventListener('change', () => this.show());
     element('scenes-close', HTMLButtonElement).addEventListener('click', () => this.dialog.close());
   }
 
@@ -94,7 +97,7 @@ export class ScenesCard {
   }
 
   private show(): void {
-    this.search.hidden = this.rows.length < kSearchFrom;
+    this.search.hidden = this.order.hidden = this.rows.length < kSearchFrom;
     const words = this.search.value.toLowerCase().split(/\s+/);
     const found = this.rows.filter(({ name, path }) => {
       const text = `${name} ${path}`.toLowerCase();
@@ -103,12 +106,15 @@ export class ScenesCard {
     this.said.textContent = this.rows.length > 0 && found.length === 0 ? 'No scene has that in its name.' : '';
     this.seen.disconnect();
     this.items.clear();
+    found.sort(this.order.value === 'newest' ? byTime : byName);
     this.list.replaceChildren(...found.map((row) => this.itemOf(row)));
   }
 
-  private async picture({ row, image, facts }: Item): Promise<void> {
+  private async picture({ row, image, doing, facts }: Item): Promise<void> {
+    doing.textContent = 'drawing…';
     const picture = await this.files.picture(row.thumb);
-    if (picture === null) return; // it stays empty: a file may be broken
+    doing.textContent = picture === null ? 'no picture' : ''; // a file may be broken
+    if (picture === null) return;
     image.src = picture;
     if (row.holds) return;
     const answer = await this.files.get(`api/v1/scenes/${row.id}`).catch(() => null);
@@ -122,9 +128,10 @@ export class ScenesCard {
     choose.title = row.path;
     const image = make('img');
     image.alt = '';
+    const doing = make('em');
     const facts = make('small', factsOf(row));
-    choose.append(image, make('span', row.name), facts);
-    this.items.set(item, { row, image, facts });
+    choose.append(image, doing, make('span', row.name), facts);
+    this.items.set(item, { row, image, doing, facts });
     this.seen.observe(item);
     if (row.id === this.actions.sceneId()) choose.setAttribute('aria-current', 'true');
     choose.addEventListener('click', () => {
@@ -139,15 +146,21 @@ export class ScenesCard {
 interface Item {
   readonly row: Row;
   readonly image: HTMLImageElement;
+  readonly doing: HTMLElement; // what is being done for its picture, over its place
   readonly facts: HTMLElement;
 }
+
+const byName = (a: Row, b: Row): number => a.name.localeCompare(b.name);
+const byTime = (a: Row, b: Row): number => (b.modified ?? 0) - (a.modified ?? 0);
 
 const counted = (count: number, what: string): string[] =>
   count === 0 ? [] : [`${count.toLocaleString('en')} ${what}${count === 1 ? '' : 's'}`];
 
-/** "GLB, 1.2 MB, 2,340 triangles, 1 light", with what is known. */
+/** "GLTF, 1.2 MB, 2,340 triangles, 1 light", with what is known. */
 function factsOf({ kind, bytes: size, holds }: Row): string {
-  const parts = kind === 'builtin' ? ['built in'] : [kind.toUpperCase(), bytes(size)];
+  // A glTF is little without its buffers and textures, whose size is known once it was read.
+  const known = holds?.file_bytes ?? (kind === 'glb' ? size : 0);
+  const parts = kind === 'builtin' ? ['built in'] : [kind.toUpperCase(), ...(known > 0 ? [bytes(known)] : [])];
   if (holds) {
     parts.push(
       ...counted(holds.triangles, 'triangle'),

@@ -1,22 +1,27 @@
-// Whether parts of the page are open, as this browser keeps it for the next visit; where it forbids
-// that, they are closed then.
+// What this browser keeps for the next visit: which parts of the page are open, and which hints were
+// seen. Where it forbids that, parts are closed and hints come again.
 
 export type Part = 'settings' | 'figures';
+export type Hint = 'drag-hint';
 
-const key = (part: Part): string => `froxel.${part}`;
-
-export function wasOpen(part: Part): boolean {
+function read(key: Part | Hint): string | null {
   try {
-    return localStorage.getItem(key(part)) === 'open';
+    return localStorage.getItem(`froxel.${key}`);
   } catch {
-    return false;
+    return null;
   }
 }
 
-export function keepOpen(part: Part, open: boolean): void {
+function write(key: Part | Hint, value: string): void {
   try {
-    localStorage.setItem(key(part), open ? 'open' : 'closed');
+    localStorage.setItem(`froxel.${key}`, value);
   } catch {
     // forbidden or full
   }
 }
+
+export const wasOpen = (part: Part): boolean => read(part) === 'open';
+export const keepOpen = (part: Part, open: boolean): void => write(part, open ? 'open' : 'closed');
+
+export const wasSeen = (hint: Hint): boolean => read(hint) === 'seen';
+export const keepSeen = (hint: Hint): void => write(hint, 'seen');

@@ -33,20 +33,14 @@ export class Picture {
     this.painted = true;
   }
 
+  /** Of the picture that is shown; null before the first. */
+  size(): Size | null {
+    return this.painted ? { width: this.canvas.width, height: this.canvas.height } : null;
+  }
+
   /** The picture as it is shown, at its own size; null before the first. */
   png(): Promise<Blob | null> {
     if (!this.painted) return Promise.resolve(null);
     return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
   }
-}
-
-/** Hands a file to the browser's downloads. */
-export function download(blob: Blob, name: string): void {
-  const url = URL.createObjectURL(blob);
-  const link = document.createElement('a');
-  link.href = url;
-  link.download = name;
-  link.click();
-  // The download holds the data once it has started, which takes a turn of the event loop or more.
-  setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }

@@ -107,7 +107,11 @@ const kEnds: Readonly<Record<number, End>> = {
 const kPauses: Readonly<Record<number, string>> = {
   4008: 'Your connection is too slow for this view. A smaller window takes less.',
   4010: 'The server is going down.',
-  4029: 'Every place on this server is taken.',
+  4029: 'Every place on this server is taken. One is free when a viewer leaves.',
+  4030: 'This server draws for as many viewers as it can. One more fits when a viewer leaves or rests.',
+  4031: 'Your address or token has as many views open here as it may. Closing one of them makes room.',
+  4032: 'Every place in this room is taken. One is free when a viewer leaves.',
+  4033: 'This server has no memory for one more view. There is some when a viewer leaves.',
   4050: 'The server lost its graphics device.',
 };
 
@@ -293,6 +297,6 @@ export class Connection {
       return;
     }
     const delay = refusal.retryAfterMs * (1 + this.env.random());
-    this.wait(delay, `The server has no place for you now: ${refusal.reason}.`);
+    this.wait(delay, kPauses[refusal.closeCode] ?? `The server has no place for you now: ${refusal.reason}.`);
   }
 }

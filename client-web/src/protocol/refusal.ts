@@ -8,6 +8,8 @@ const kPatienceMs = 5_000;
 
 export interface Refusal {
   readonly reason: string;
+  /** The code that a WebSocket would have been closed with; 0: none was told. */
+  readonly closeCode: number;
   readonly retryAfterMs: number;
 }
 
@@ -32,6 +34,7 @@ export async function askRefusal(url: string): Promise<Refusal | null> {
     if (response.status !== 503 || !plain) return null;
     const seconds = Number(response.headers.get('Retry-After') ?? '0');
     return {
+      closeCode: Number(response.headers.get('Froxel-Close-Code') ?? '0'),
       reason: (await response.text()).trim().slice(0, kLongestReason),
       retryAfterMs: Number.isFinite(seconds) ? Math.max(0, seconds * 1000) : 0,
     };

@@ -1,4 +1,4 @@
-// A file of placed lights: the protocol's own message as JSON. Fetched when one is saved or loaded.
+// Placed lights from files and addresses: the protocol's own message as JSON. Fetched when one is read or saved.
 
 import { create, fromJsonString, toJsonString } from '@bufbuild/protobuf';
 

@@ -134,6 +134,18 @@ export const messageOf = ({ radius: radiusM, replacesSeeded, replacesScene, ...l
   ...(replacesSeeded !== undefined && { replacesSeeded }),
   ...(replacesScene !== undefined && { replacesScene }),
 });
+/** The protocol's JSON of these lights in one line, without what a new light has anyway. */
+export const lightSetLine = (lights: PlacedLights): string =>
+  JSON.stringify({
+    lights: lights.map((light) => {
+      const usual: Partial<LightMessage> = messageOf({ ...kNewLight, id: 0, position: vec(0, 0, 0) });
+      const all = Object.entries(messageOf(light));
+      const isUsual = ([key, value]: [string, unknown]): boolean =>
+        key !== 'position' && JSON.stringify(value) === JSON.stringify(usual[key as keyof LightMessage]);
+      return Object.fromEntries(all.filter((entry) => !isUsual(entry)));
+    }),
+  });
+
 export type LightMessage = ReturnType<typeof messageOf>;
 
 export interface PlacedLightsChange {

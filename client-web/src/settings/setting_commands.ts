@@ -58,6 +58,10 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   return commands;
 }
 
+/** Whether no command leads from one to the other. */
+export const sameView = (a: Settings, b: Settings): boolean =>
+  settingCommands(a, b).length === 0 && cameraCommand(a, b) === null;
+
 const kCommands: readonly CommandName[] = [...new Set(kRows.map(({ command }) => command))];
 
 const hasAny = (parts: Parts): boolean => Object.keys(parts).length > 0;

@@ -4,6 +4,7 @@
 import { vec, type Vec } from '../core/vec3';
 import { isUint32, type Field } from '../settings/field';
 import { choicesFor, isGridSide, kAllFields, patchFor } from '../settings/fields';
+import { lightSetLine } from '../settings/placed_lights';
 import { valueOf, type Bounds, type Ramp, type Settings, type Value } from '../settings/settings';
 import type { SizeMode } from './size_policy';
 
@@ -11,6 +12,7 @@ export interface Address {
   readonly settings: Partial<Settings>;
   readonly size: SizeMode | null; // null: the address does not say
   readonly scene: string | null; // its id; null: whatever the server shows
+  readonly lightSet: string | null; // of placed lights, as light_set.ts reads it
   /** One line for each key or value that makes no sense; they have no effect. */
   readonly problems: readonly string[];
 }
@@ -27,40 +29,52 @@ const kFormerNames: ReadonlyMap<string, string> = new Map([
 ]);
 
 const kScene = 'scene';
+const kPlacedLights = 'placed_lights';
 const kVectors = ['eye', 'target', 'up'] as const;
 const kRamps = { toon_fragment: 'toonFragment', toon_compute: 'toonCompute' } as const;
 
-/**
- * The fragment, without '#', for these settings; ramps only where they differ from `initial`. An
- * empty `scene`: the server has no other.
- */
-export function formatAddress(settings: Settings, size: SizeMode, initial: Settings, scene = ''): string {
-  const parts: string[] = [];
-  const put = (name: string, value: string): void => void parts.push(`${name}=${value}`);
-  if (scene !== '') put(kScene, encodeURIComponent(scene));
+type Texts = ReadonlyMap<string, string>;
+
+/** All that an address says of these settings, by name. */
+function textsOf(settings: Settings): Texts {
+  const texts = new Map<string, string>();
   for (const field of kAllFields) {
     if (field.key === 'fovDeg' && settings.orthographic) continue;
     if (isGridSide(field) && settings.gridAutomatic) continue;
-    put(field.name, formatField(field, settings));
+    texts.set(field.name, formatField(field, settings));
   }
-  if (settings.orthographic) put('half_height', short(settings.halfHeight));
+  if (settings.orthographic) texts.set('half_height', short(settings.halfHeight));
   // To the last bit: two pages of a scene that stands still show the same picture.
-  if (settings.lightTime !== null) put('light_time', String(settings.lightTime));
-  if (settings.animationTime !== null) put('animation_time', String(settings.animationTime));
-  for (const name of kVectors) put(name, formatVec(settings[name]));
+  if (settings.lightTime !== null) texts.set('light_time', String(settings.lightTime));
+  if (settings.animationTime !== null) texts.set('animation_time', String(settings.animationTime));
+  for (const name of kVectors) texts.set(name, formatVec(settings[name]));
   if (settings.lightBox) {
-    put('light_box', `${formatVec(settings.lightBox.min)};${formatVec(settings.lightBox.max)}`);
+    texts.set('light_box', `${formatVec(settings.lightBox.min)};${formatVec(settings.lightBox.max)}`);
   }
-  put(
-    'size',
-    size.kind === 'auto' ? `auto@${short(size.scale)}` : `${settings.width}x${settings.height}`,
-  );
-  for (const [name, key] of Object.entries(kRamps)) {
-    const text = formatRamp(settings[key]);
-    if (text !== formatRamp(initial[key])) put(name, text);
-  }
-  return parts.join('&');
+  for (const [name, key] of Object.entries(kRamps)) texts.set(name, formatRamp(settings[key]));
+  texts.set(kPlacedLights, encodeURIComponent(lightSetLine(settings.placedLights)));
+  return texts;
 }
+
+const join = (texts: Iterable<readonly [string, string]>): string =>
+  [...texts].map(([name, text]) => `${name}=${text}`).join('&');
+
+/**
+ * The fragment, without '#', that turns `initial` into these settings. `size` null: it follows the
+ * window as usual. An empty `scene`: the server has no other.
+ */
+export function formatAddress(settings: Settings, size: SizeMode | null, initial: Settings, scene = ''): string {
+  const before = textsOf(initial);
+  const texts = new Map<string, string>(scene === '' ? [] : [[kScene, encodeURIComponent(scene)]]);
+  for (const [name, text] of textsOf(settings)) if (before.get(name) !== text) texts.set(name, text);
+  if (size?.kind === 'auto') texts.set('size', `auto@${short(size.scale)}`);
+  if (size?.kind === 'fixed') texts.set('size', `${settings.width}x${settings.height}`);
+  return join(texts);
+}
+
+/** The fragment of those settings that `names` has. */
+export const formatOnly = (settings: Settings, names: ReadonlySet<string>): string =>
+  join([...textsOf(settings)].filter(([name]) => names.has(name)));
 
 /**
  * What is sent to others for the page at `href`, whose files are at `base`: it leads there, and tells
@@ -75,14 +89,23 @@ export function linkTo(href: string, base: string): string {
   return link.href;
 }
 
-/** The size of a small still. */
-const kSmall = '236x133';
+/** What is sent to others for a room. */
+export function roomLink(room: string, base: string): string {
+  const link = new URL(base);
+  link.hash = link.search = '';
+  link.searchParams.set('room', room);
+  return link.href;
+}
 
-/** What `render?` takes for a small picture of this view, with `over`, an address, over it. */
+/** Whether a host's name leads every computer to itself. */
+export const isLoopback = (hostname: string): boolean =>
+  hostname === 'localhost' || hostname.endsWith('.localhost') || hostname === '[::1]' || hostname.startsWith('127.');
+
+/** What `render?` takes for a picture of this view, with `over`, an address with a size, over it. */
 export function stillAddress(settings: Settings, scene: string, over: string): string {
-  const query = new URLSearchParams(formatAddress(settings, { kind: 'fixed' }, settings, scene));
+  const query = new URLSearchParams(join(textsOf(settings)));
+  if (scene !== '') query.set(kScene, scene);
   for (const [name, text] of new URLSearchParams(over)) query.set(name, text);
-  query.set('size', kSmall);
   return query.toString();
 }
 
@@ -92,9 +115,14 @@ export function parseAddress(fragment: string): Address {
   const problems: string[] = [];
   let size: SizeMode | null = null;
   let scene: string | null = null;
+  let lightSet: string | null = null;
   for (const [name, text] of new URLSearchParams(fragment.replace(/^#/, ''))) {
     if (name === kScene) {
       scene = text === '' ? null : text;
+      continue;
+    }
+    if (name === kPlacedLights) {
+      lightSet = text;
       continue;
     }
     const found = parseEntry(kFormerNames.get(name) ?? name, text);
@@ -105,7 +133,7 @@ export function parseAddress(fragment: string): Address {
       size = found.size ?? size;
     }
   }
-  return { settings, size, scene, problems };
+  return { settings, size, scene, lightSet, problems };
 }
 
 interface Entry {

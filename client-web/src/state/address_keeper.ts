@@ -4,13 +4,15 @@
 import { Codec } from '../gen/froxel/v1/common_pb';
 import { cameraCommand, settingCommands } from '../settings/setting_commands';
 import type { Settings } from '../settings/settings';
-import { formatAddress, linkTo, parseAddress } from './address';
+import { formatAddress, isLoopback, linkTo, parseAddress, roomLink } from './address';
 import type { AppState } from './app_state';
+import type { SizeMode } from './size_policy';
 import type { Store } from './store';
 
 const kWriteDelayMs = 400; // browsers limit how often an address may change
 
 export class AddressKeeper {
+  private usualSize: SizeMode | null = null; // what the page chose by itself
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   /** `codecs` are those that this browser decodes. `wishes` are what is set unless the address says otherwise. */
@@ -24,7 +26,7 @@ export class AddressKeeper {
   }
 
   read(): void {
-    const { settings, size, scene, problems: unread } = parseAddress(location.hash);
+    const { settings, size, scene, lightSet, problems: unread } = parseAddress(location.hash);
     const problems = [...unread];
     const { codec, ...others } = settings;
     const decodes = codec === undefined || this.codecs().includes(codec);
@@ -34,23 +36,51 @@ export class AddressKeeper {
     const first = this.store.state.settings === null ? this.wishes : {};
     const wanted = { ...first, ...(decodes ? settings : others) };
     this.store.dispatch({ type: 'restored', wanted, size, scene });
+    if (lightSet !== null) void this.readLights(lightSet, wanted, scene);
     if (problems.length > 0) {
       this.store.dispatch({ type: 'notice', tone: 'error', text: problems.join('; ') });
     }
   }
 
-  async copy(): Promise<void> {
-    this.write();
-    let text = 'The link to this view is on the clipboard.';
+  private async readLights(text: string, wanted: Partial<Settings>, scene: string | null): Promise<void> {
     try {
-      await navigator.clipboard.writeText(linkTo(location.href, document.baseURI));
-    } catch {
-      text = 'Copy the link from the address bar.'; // no clipboard without https, or forbidden
+      const { lightSetOf } = await import('../settings/light_set');
+      const placedLights = lightSetOf(text);
+      const all = this.store.state.settings === null || this.store.state.wantedScene !== null;
+      this.store.dispatch({ type: 'restored', wanted: { ...(all && wanted), placedLights }, size: null, scene });
+    } catch (error) {
+      const why = error instanceof Error ? error.message : '';
+      this.store.dispatch({ type: 'notice', tone: 'error', text: `link: placed_lights is no light set: ${why}` });
     }
-    this.store.dispatch({ type: 'notice', tone: 'info', text });
+  }
+
+  /** A link to this view. */
+  copy(): Promise<void> {
+    this.write();
+    return this.copyLink('this view', linkTo(location.href, document.baseURI));
+  }
+
+  /** A link to a room, whose view is that of who controls it. */
+  copyRoom(name: string): Promise<void> {
+    return this.copyLink('this room', roomLink(name, document.baseURI));
+  }
+
+  private async copyLink(what: string, link: string): Promise<void> {
+    const said: string[] = [];
+    try {
+      await navigator.clipboard.writeText(link);
+      said.push(`The link to ${what} is on the clipboard.`);
+    } catch {
+      said.push(`Copy the link to ${what}: ${link}`); // no clipboard without https, or forbidden
+    }
+    const copied = said[0]?.startsWith('The') ?? false;
+    const { hostname } = new URL(link);
+    if (isLoopback(hostname)) said.push(`It leads nowhere from other computers: ${hostname} is each one's name for itself.`);
+    this.store.dispatch({ type: 'notice', tone: 'info', text: said.join(' '), stays: !copied || said.length > 1 });
   }
 
   private changed(state: AppState, before: AppState): void {
+    if (before.sizeMode === null && before.server !== null) this.usualSize = state.sizeMode;
     const sizeChosen = before.sizeMode !== null && state.sizeMode !== before.sizeMode;
     const sceneChanged = before.server !== null && sceneOf(state) !== sceneOf(before);
     if (!sizeChosen && !sceneChanged && !edited(before, state)) return;
@@ -58,11 +88,13 @@ export class AddressKeeper {
     this.timer = setTimeout(() => this.write(), kWriteDelayMs);
   }
 
-  private write(): void {
+  /** Brings the address up to date now. */
+  write(): void {
     clearTimeout(this.timer);
     const { settings, sizeMode, server } = this.store.state;
     if (!settings || !sizeMode || !server) return;
-    history.replaceState(null, '', `#${formatAddress(settings, sizeMode, server.initial, sceneOf(this.store.state))}`);
+    const size = sizeMode === this.usualSize ? null : sizeMode;
+    history.replaceState(null, '', `#${formatAddress(settings, size, server.initial, sceneOf(this.store.state))}`);
   }
 }
 

@@ -18,6 +18,7 @@ import {
 import type { Link } from '../protocol/connection';
 import { findLight, placedAfter, type PlacedLights } from '../settings/placed_lights';
 import { cameraOf, settingsOf, type Bounds, type CameraPose, type Settings } from '../settings/settings';
+import { sees } from '../settings/sight';
 import { mayControl, roomOf, type Room } from './room';
 import type { SizeMode } from './size_policy';
 
@@ -28,7 +29,7 @@ export interface ServerInfo {
   readonly scene: SceneInfo | null;
   readonly bounds: Bounds | null;
   readonly ranges: ReadonlyMap<string, FieldRange>;
-  readonly initial: Settings;
+  readonly initial: Settings; // what a new session begins with on this page
   readonly looks: readonly Look[];
 }
 
@@ -46,6 +47,7 @@ export interface Notice {
   readonly text: string;
   readonly tone: 'error' | 'info';
   readonly stays?: boolean; // until it is dismissed, or another connection is there
+  readonly refSeq?: bigint; // of the command that was refused: news once a later one is answered
 }
 
 /** Of a PickLight: its seq, and the id that the light is to have. */
@@ -146,7 +148,7 @@ export function reduce(state: AppState, action: Action): AppState {
     case 'want_scene':
       return { ...state, wantedScene: action.scene, wanted: {} };
     case 'notice':
-      return { ...state, notice: { text: action.text, tone: action.tone } };
+      return { ...state, notice: { text: action.text, tone: action.tone, stays: action.stays ?? false } };
     case 'dismiss':
       return { ...state, notice: null };
   }
@@ -181,8 +183,24 @@ function restored(state: AppState, { wanted, size, scene }: Restored): AppState 
   const wantedScene = scene && scene !== state.server?.scene?.id ? scene : null;
   // What an address says is about its own scene.
   if (wantedScene !== null) return { ...state, wanted, wantedScene, sizeMode };
-  const settings = state.settings && { ...state.settings, ...wanted };
-  return { ...state, wanted, wantedScene, settings, sizeMode };
+  if (!state.settings || !state.server) return { ...state, wanted, wantedScene, sizeMode };
+  const { settings, notice } = withWanted(state.settings, wanted, state.server);
+  return { ...state, wanted, wantedScene, settings, sizeMode, notice: notice ?? state.notice };
+}
+
+/** What an address asks for; its view only where that shows something of the scene. */
+function withWanted(
+  present: Settings,
+  wanted: Partial<Settings>,
+  { bounds, initial }: { readonly bounds: Bounds | null; readonly initial: Settings },
+): { settings: Settings; notice: Notice | null } {
+  const settings = { ...present, ...wanted };
+  const moves = wanted.eye !== undefined || wanted.target !== undefined;
+  if (!moves || !bounds || sees(settings, settings.width / settings.height, bounds)) {
+    return { settings, notice: null };
+  }
+  const text = 'The view of this address shows nothing of the scene. This is the first view of the scene.';
+  return { settings: { ...settings, ...cameraOf(initial) }, notice: { text, tone: 'info' } };
 }
 
 function received(state: AppState, message: ServerMessage): AppState {
@@ -198,7 +216,9 @@ function received(state: AppState, message: ServerMessage): AppState {
       const stale =
         mayControl(state.room) &&
         (state.settings !== state.sent || answer.refSeq < state.sentSeq);
-      const told = { ...state, confirmed, ...picked(state, answer.refSeq, placed) };
+      const isOld = state.notice?.refSeq !== undefined && answer.refSeq > state.notice.refSeq;
+      const notice = isOld ? null : state.notice;
+      const told = { ...state, confirmed, notice, ...picked(state, answer.refSeq, placed) };
       return stale ? told : { ...told, settings: confirmed, sent: confirmed };
     }
     case 'sceneLoading': {
@@ -216,15 +236,16 @@ function received(state: AppState, message: ServerMessage): AppState {
       if (body.value.code === ErrorCode.TOKEN) return state; // the question for one says it
       if (body.value.refSeq > 0n && body.value.refSeq === state.pick?.seq) {
         // Nothing was wished for in the settings that would have to be taken back.
+        if (body.value.field === kPickMissed) return { ...home(state), pick: null };
         return { ...state, pick: null, notice: { text: body.value.message, tone: 'error' } };
       }
       return {
         ...state,
         ...(body.value.refSeq > 0n && { settings: state.confirmed, sent: state.confirmed }),
-        notice: { text: body.value.message, tone: 'error' },
+        notice: { text: body.value.message, tone: 'error', refSeq: body.value.refSeq },
       };
     case 'loading':
-      return { ...state, loading: { stage: body.value.stage, fraction: body.value.fraction } };
+      return { ...state, loading: body.value.stage === '' ? null : { stage: body.value.stage, fraction: body.value.fraction } };
     case 'details':
       return { ...state, details: body.value };
     case 'roomState':
@@ -235,6 +256,15 @@ function received(state: AppState, message: ServerMessage): AppState {
     default:
       return state;
   }
+}
+
+/** The field that a server names where no light is near what was picked. */
+const kPickMissed = 'x';
+
+/** At the scene's first view. */
+function home(state: AppState): AppState {
+  const { settings, server } = state;
+  return settings && server ? { ...state, settings: { ...settings, ...cameraOf(server.initial) } } : state;
 }
 
 /** What the answer to a pick changes: the light is chosen. */
@@ -253,9 +283,11 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
   const scene = welcome.scene ?? null;
   const bounds = boundsOf(scene);
   const present = settingsOf(welcome.state, bounds, placedAfter([], welcome.placedLights));
-  const initial = welcome.defaults
-    ? settingsOf(welcome.defaults, bounds, placedAfter([], welcome.defaultPlacedLights))
-    : present;
+  const initial = withoutLoss(
+    welcome.defaults
+      ? settingsOf(welcome.defaults, bounds, placedAfter([], welcome.defaultPlacedLights))
+      : present,
+  );
   const room = welcome.room ? roomOf(welcome.room) : null;
   const server: ServerInfo = {
     version: welcome.serverVersion,
@@ -269,13 +301,13 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
   };
   const wantedScene = mayControl(room) ? sceneToReturnTo(state, server) : null;
   const begins = wantedScene === null && mayControl(room);
-  const settings = begins ? desired(state, server, present) : present;
+  const { settings, notice } = begins ? desired(state, server, present) : { settings: present, notice: null };
   return {
     ...state,
     link: { phase: 'live' },
     loading: null,
     // News of the last connection, such as that the server goes down, is old now.
-    notice: givenAway(state, welcome) ?? (state.notice?.tone === 'info' ? null : state.notice),
+    notice: givenAway(state, welcome) ?? notice ?? (state.notice?.tone === 'info' ? null : state.notice),
     keeps: welcome.resumeToken !== '',
     server,
     settings,
@@ -301,12 +333,16 @@ function sceneChanged(state: AppState, changed: SceneChanged): AppState {
   const scene = changed.scene ?? null;
   const bounds = boundsOf(scene);
   const present = settingsOf(changed.state, bounds, placedAfter([], changed.placedLights));
-  const initial = settingsOf(changed.defaults, bounds, placedAfter([], changed.defaultPlacedLights));
+  const initial = withoutLoss(
+    settingsOf(changed.defaults, bounds, placedAfter([], changed.defaultPlacedLights)),
+  );
   const wanted = scene?.id === state.wantedScene ? state.wanted : {};
+  const { settings, notice } = withWanted(present, wanted, { bounds, initial });
   return {
     ...state,
     server: { ...state.server, scene, bounds, initial, looks: changed.looks },
-    settings: { ...present, ...wanted },
+    settings,
+    notice, // what was said was about the last scene
     sent: present,
     confirmed: present,
     wantedScene: null,
@@ -328,22 +364,24 @@ function givenAway({ keeps }: AppState, { resumed }: Welcome): Notice | null {
   return { text, tone: 'info' };
 }
 
+/** A server refines without loss only for clients that say that they decode it. */
+const withoutLoss = (settings: Settings): Settings =>
+  settings.refine === Refine.HIGH ? { ...settings, refine: Refine.LOSSLESS } : settings;
+
 /** What to show after Welcome: as before the connection broke, or else as the address says. */
-function desired(state: AppState, server: ServerInfo, present: Settings): Settings {
+function desired(state: AppState, server: ServerInfo, present: Settings): ReturnType<typeof withWanted> {
   const before = state.settings;
   if (!before) {
-    // A server refines without loss only for clients that say that they decode it.
-    const refine = present.refine === Refine.HIGH ? Refine.LOSSLESS : present.refine;
-    return { ...present, refine, ...state.wanted };
+    return withWanted(withoutLoss(present), state.wanted, server);
   }
   const { placedLights, animation, animationTime, materialVariant, followedCamera } = present;
   if (isSameScene(state.server?.scene, server.scene)) {
     const follows = followedCamera !== '' && followedCamera === before.followedCamera;
-    return follows ? { ...before, ...cameraOf(present) } : before;
+    return { settings: follows ? { ...before, ...cameraOf(present) } : before, notice: null };
   }
   // Another scene: places of the old one mean nothing in it.
   const places = { placedLights, animation, animationTime, materialVariant, followedCamera };
-  return { ...before, ...cameraOf(present), lightBox: null, ...places };
+  return { settings: { ...before, ...cameraOf(present), lightBox: null, ...places }, notice: null };
 }
 
 /** By id, where the server has several. */

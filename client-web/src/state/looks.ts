@@ -1,7 +1,7 @@
 // Looks: named presets of lights, environment and renderer, as fragments of the address. The server
 // offers some, and a browser keeps those of its viewers.
 
-import { formatAddress, parseAddress } from './address';
+import { formatOnly, parseAddress } from './address';
 import type { ServerInfo } from './app_state';
 import type { Settings } from '../settings/settings';
 
@@ -23,10 +23,7 @@ export const offeredLooks = (server: ServerInfo | null): Look[] =>
 /** What of `settings` a look of this server would set. Empty: it offers none. */
 export function lookAddress(server: ServerInfo, settings: Settings): string {
   const names = new Set(new URLSearchParams(server.looks[0]?.address ?? '').keys());
-  return formatAddress(settings, { kind: 'fixed' }, settings)
-    .split('&')
-    .filter((part) => names.has(part.slice(0, part.indexOf('='))))
-    .join('&');
+  return formatOnly(settings, names);
 }
 
 /** Whether these settings are all that the look sets. */

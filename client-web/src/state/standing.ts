@@ -2,6 +2,7 @@
 
 import { count } from '../core/format';
 import { RendererSchema } from '../gen/froxel/v1/common_pb';
+import type { FrameHeader } from '../gen/froxel/v1/server_pb';
 import type { Remedy } from '../protocol/connection';
 import { nameIn } from '../protocol/schema_names';
 import type { AppState, Loading } from './app_state';
@@ -11,7 +12,7 @@ export interface Standing {
   readonly tone: 'error' | 'info';
   readonly aside: string; // what of it changes by the second; not read aloud
   readonly remedy: Remedy | null;
-  /** How far it is with the first picture; null: it is there, or not to come. */
+  /** How far it is with what is on its way, where `text` does not say it; null: nothing is. */
   readonly progress: { readonly text: string; readonly fraction: number | null } | null;
   /** The picture that is shown, if any, is an old one. */
   readonly dims: boolean;
@@ -26,9 +27,10 @@ export interface Moment {
   readonly nowMs: number;
   readonly hasPicture: boolean; // any was shown
   readonly lagMs: number; // for how long it has shown nothing of what was asked for
+  readonly shown: FrameHeader | null; // of the picture that is shown
 }
 
-export function standingOf(state: AppState, { nowMs, hasPicture, lagMs }: Moment): Standing {
+export function standingOf(state: AppState, { nowMs, hasPicture, lagMs, shown }: Moment): Standing {
   const { link, notice, loading, sceneLoading } = state;
   const live = link.phase === 'live';
   const well: Standing = {
@@ -52,19 +54,34 @@ export function standingOf(state: AppState, { nowMs, hasPicture, lagMs }: Moment
   if (link.phase === 'refused') {
     return { ...well, text: link.reason, tone: 'error', remedy: link.remedy };
   }
-  if (notice) return { ...well, text: notice.text, tone: notice.tone, remedy: kDismiss };
+  if (notice) {
+    const coming = sceneLoading ?? loading;
+    const progress = well.progress ?? (coming && { text: loadingText(coming), fraction: coming.fraction });
+    return { ...well, text: notice.text, tone: notice.tone, remedy: kDismiss, progress };
+  }
   if (!hasPicture) return well;
-  if (!live) return { ...well, text: loading ? loadingText(loading) : 'Connecting…' };
+  if (!live) {
+    if (!loading) return { ...well, text: 'Connecting…' };
+    return { ...well, text: 'The server started anew.', aside: `${loadingText(loading)}.` };
+  }
   if (sceneLoading) {
     const remedy: Remedy = { label: 'Cancel', act: 'stay' };
     return { ...well, text: 'Another scene is on its way.', aside: `${loadingText(sceneLoading)}.`, remedy };
   }
+  if (loading) return { ...well, text: 'This view is drawn for the first time.', aside: `${loadingText(loading)}.` };
+  if (shown && shown.fullSizeUs > 0) return { ...well, text: smallerText(state, shown) };
   if (lagMs < kSlowMs) return well;
   return {
     ...well,
     text: 'This view is slow to draw. Fewer lights or a smaller size are drawn sooner.',
     aside: `${Math.floor(lagMs / 1000)} s behind.`,
   };
+}
+
+function smallerText({ confirmed }: AppState, { fullSizeUs, width, height }: FrameHeader): string {
+  const seconds = (fullSizeUs / 1e6).toPrecision(2);
+  const asked = confirmed ? ` at ${confirmed.width}×${confirmed.height}` : '';
+  return `This machine needs ${seconds} s a picture${asked}; shown at ${width}×${height}.`;
 }
 
 function progressOf({ link, loading }: AppState): Standing['progress'] {
@@ -75,7 +92,8 @@ function progressOf({ link, loading }: AppState): Standing['progress'] {
 }
 
 function loadingText({ stage, fraction }: Loading): string {
-  return `${stage.charAt(0).toUpperCase()}${stage.slice(1)}, ${Math.round(fraction * 100)} %`;
+  const known = fraction > 0 ? `, ${Math.round(fraction * 100)} %` : '';
+  return `${stage.charAt(0).toUpperCase()}${stage.slice(1)}${known}`;
 }
 
 /** What a screen reader says of the picture. */

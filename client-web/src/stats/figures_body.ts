@@ -11,7 +11,7 @@ import { Graph } from './graph';
 import { PassStack } from './pass_stack';
 import { kStages, type Figures, type Stats } from './stats';
 
-const kGraphWidth = 236;
+const kGraphWidth = 274;
 const kGraphHeight = 84;
 
 const codecName = ({ parts }: FrameHeader): string => nameIn(CodecSchema, parts[0]?.codec ?? 0);
@@ -52,16 +52,16 @@ export class FiguresBody {
   }
 
   private showList({ last, ...figures }: Figures): void {
-    this.value('Frame interval', 'interval', ms(this.stats.history.intervalMs.at(-1) ?? null));
+    this.value('Frame interval, ms', 'interval', ms(this.stats.history.intervalMs.at(-1) ?? null));
     const latency = `${ms(figures.latencyP50Ms)} · ${ms(figures.latencyP95Ms)}`;
-    this.value('Latency, median · p95', 'latency', latency);
+    this.value('Latency, median · p95, ms', 'latency', latency);
     this.value('Data rate', '', `${bytes(figures.bytesPerSecond)}/s`);
     if (!last) return;
     this.value('Codec', '', `${codecName(last)} · ${bits(figures.bytesPerSecond * 8)}/s`);
-    this.value('Picture', '', `${last.width} × ${last.height}`);
+    this.value('Picture, pixels', '', `${last.width} × ${last.height}`);
     for (const { name, value } of deliveryRows(last)) this.value(name, '', value);
     const gpu = timeText(last.gpuUs === undefined ? null : last.gpuUs / 1000);
-    this.value('Drawing · encoding', '', `${gpu} · ${ms(last.encodeUs / 1000)}`);
+    this.value('Drawing · encoding, ms', '', `${gpu} · ${ms(last.encodeUs / 1000)}`);
     this.value('Surfaces', '', surfacesText(last));
     this.value('Triangles', '', count(last.triangles));
     this.value('Lights', '', count(last.lightCount));

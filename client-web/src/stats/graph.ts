@@ -5,6 +5,11 @@ import 'uplot/dist/uPlot.min.css';
 
 import type { History } from './stats';
 
+const kDigitPx = 5.6; // of the axis's font
+const axisText = (ms: number): string => (ms < 10_000 ? `${ms} ms` : `${ms / 1000} s`);
+const widest = (texts: string[] | null): number =>
+  12 + kDigitPx * Math.max(0, ...(texts ?? []).map(({ length }) => length));
+
 export class Graph {
   private readonly plot: uPlot;
 
@@ -34,7 +39,7 @@ export class Graph {
         scales: { x: { time: false }, y: { range: (_, __, max) => [0, Math.max(20, max * 1.1)] } },
         axes: [
           { ...axis, show: false },
-          { ...axis, size: 30, space: 22, values: (_, splits) => splits.map(String) },
+          { ...axis, size: (_, texts) => widest(texts), space: 22, values: (_, splits) => splits.map(axisText) },
         ],
         series: [
           {},

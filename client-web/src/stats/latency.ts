@@ -62,6 +62,7 @@ export class InputLatency {
   readonly window = new SampleWindow(128);
   private shownSeq = 0n;
   private askedSeq = 0n;
+  private changedSeq = 0n; // newest command that is known to have changed the view
   private waitingSinceMs: number | null = null; // for a frame that shows a command
 
   /** A command was sent that a frame is to show. */
@@ -69,6 +70,12 @@ export class InputLatency {
     if (seq <= this.shownSeq) return;
     this.askedSeq = seq;
     this.waitingSinceMs ??= nowMs;
+  }
+
+  /** The server answered commands up to this one. No frame is to come for what changed nothing. */
+  answered(seq: bigint, changed: boolean): void {
+    if (changed) this.changedSeq = seq;
+    else if (seq >= this.askedSeq && this.shownSeq >= this.changedSeq) this.waitingSinceMs = null;
   }
 
   /** The server refused it: no frame will show it. */
@@ -93,7 +100,7 @@ export class InputLatency {
 
   /** A new connection counts its commands from 1 again. */
   restart(): void {
-    this.shownSeq = this.askedSeq = 0n;
+    this.shownSeq = this.askedSeq = this.changedSeq = 0n;
     this.waitingSinceMs = null;
   }
 }

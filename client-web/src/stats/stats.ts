@@ -26,6 +26,8 @@ export type Stage = (typeof kStages)[number];
 
 export interface Figures {
   readonly framesPerSecond: number;
+  /** Nothing was asked for that is not shown, and no picture has come for a while. */
+  readonly isStill: boolean;
   readonly bytesPerSecond: number;
   readonly latencyP50Ms: number | null;
   readonly latencyP95Ms: number | null;
@@ -59,6 +61,11 @@ export class Stats {
   /** A command was sent that a picture is to show. */
   asked(seq: bigint, nowMs: number): void {
     this.latency.asked(seq, nowMs);
+  }
+
+  /** The state after commands up to this one was told, and whether it is another one. */
+  answered(seq: bigint, changed: boolean): void {
+    this.latency.answered(seq, changed);
   }
 
   /** A command was refused: no picture will show it. */
@@ -104,6 +111,7 @@ export class Stats {
     const told = nowMs - this.lastSampleMs < kOldMs ? this.latency.window : null;
     return {
       framesPerSecond: this.frames.perSecond(nowMs),
+      isStill: this.lastPaintMs !== null && nowMs - this.lastPaintMs >= kIdleMs && this.lagMs(nowMs) === 0,
       bytesPerSecond: this.bytes.perSecond(nowMs),
       latencyP50Ms: told?.percentile(0.5) ?? null,
       latencyP95Ms: told?.percentile(0.95) ?? null,

@@ -21,6 +21,7 @@ export class StatsCard {
   private readonly card = element('stats', HTMLElement);
   private readonly head = element('stats-head', HTMLButtonElement);
   private readonly fps = element('stat-fps', HTMLElement);
+  private readonly latencyFigure = element('stat-latency-figure', HTMLElement);
   private readonly latency = element('stat-latency', HTMLElement);
   private readonly body: Later<FiguresBody>;
   private details: FrameDetails | null = null;
@@ -64,8 +65,11 @@ export class StatsCard {
 
   private refresh(): void {
     const figures = this.stats.figures(performance.now());
-    this.fps.textContent = figures.framesPerSecond.toFixed(figures.framesPerSecond < 10 ? 1 : 0);
+    const { isStill, framesPerSecond } = figures;
+    this.card.classList.toggle('still', isStill);
+    this.fps.textContent = isStill ? 'still' : framesPerSecond.toFixed(framesPerSecond < 10 ? 1 : 0);
     this.latency.textContent = ms(figures.latencyP50Ms);
+    this.latencyFigure.hidden = figures.latencyP50Ms === null;
     if (document.hidden || this.card.classList.contains('closed')) return;
     this.body.here?.show(figures);
   }

@@ -1,7 +1,7 @@
 // Camera moves as pure functions: pose in, pose out. Turntable convention: the world's +Y stays up,
 // so a rolled scene camera straightens when it is first moved.
 
-import { add, cross, length, normalize, scale, sub, vec, type Vec } from '../core/vec3';
+import { add, cross, dot, length, normalize, scale, sub, vec, type Vec } from '../core/vec3';
 
 export interface Pose {
   readonly eye: Vec; // metres, world
@@ -12,9 +12,6 @@ export interface Pose {
 const kUp = vec(0, 1, 0);
 /** Keeps the view off the poles, where "up" has no meaning. */
 const kPitchLimitRad = (89 * Math.PI) / 180;
-/** Closer than this to its target an orbit carries the target along instead. */
-const kMinDistanceM = 0.05;
-
 interface Spherical {
   readonly yaw: number; // radians about +Y, 0 looks along -Z
   readonly pitch: number; // radians, positive looks up
@@ -80,11 +77,11 @@ export function pan(pose: Pose, right: number, down: number, heightM: number): P
   return shift(pose, add(scale(frame.right, -right * heightM), scale(frame.up, down * heightM)));
 }
 
-/** Scales the distance to the target by `factor`; at the closest the target is pushed along. */
-export function zoom(pose: Pose, factor: number): Pose {
+/** Scales the distance to the target by `factor`; nearer than `closestM` the target is pushed along. */
+export function zoom(pose: Pose, factor: number, closestM: number): Pose {
   const s = sphericalOf(pose);
   const forward = forwardOf(s.yaw, s.pitch);
-  const distance = Math.max(s.distance * factor, kMinDistanceM);
+  const distance = Math.max(s.distance * factor, closestM);
   const eye = add(pose.eye, scale(forward, s.distance * (1 - factor)));
   return { eye, target: add(eye, scale(forward, distance)), up: kUp };
 }
@@ -94,6 +91,33 @@ export function fly(pose: Pose, right: number, up: number, forward: number): Pos
   const frame = frameOf(pose);
   const across = add(scale(frame.right, right), scale(kUp, up));
   return shift(pose, add(across, scale(frame.forward, forward)));
+}
+
+/** Where a camera may go: a ball, metres. */
+export interface Reach {
+  readonly centre: Vec;
+  readonly radiusM: number;
+}
+
+/** Of a move, what is not worth a command. */
+const kLeastShare = 1e-6;
+
+/** The move from one pose to the next, as far as eye and target stay within reach. Who is outside may come nearer. */
+export function withinReach(from: Pose, to: Pose, reach: Reach): Pose {
+  const share = Math.min(shareWithin(from.eye, to.eye, reach), shareWithin(from.target, to.target, reach));
+  if (share === 1) return to;
+  if (share < kLeastShare) return from; // at the edge already
+  const part = (a: Vec, b: Vec): Vec => add(a, scale(sub(b, a), share));
+  return { eye: part(from.eye, to.eye), target: part(from.target, to.target), up: to.up };
+}
+
+/** How much of the way from `a` to `b` lies within the ball: 0 to 1. */
+function shareWithin(a: Vec, b: Vec, { centre, radiusM }: Reach): number {
+  const [from, way] = [sub(a, centre), sub(b, a)];
+  const radius = Math.max(radiusM, length(from));
+  if (length(sub(b, centre)) <= radius) return 1;
+  const [p, q] = [dot(from, way) / dot(way, way), (dot(from, from) - radius * radius) / dot(way, way)];
+  return Math.max(0, Math.min(1, -p + Math.sqrt(Math.max(0, p * p - q))));
 }
 
 function shift(pose: Pose, by: Vec): Pose {

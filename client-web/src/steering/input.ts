@@ -1,8 +1,11 @@
 // Mouse, wheel, keys and touch on the canvas, as camera moves.
 //
-//   left drag orbits, with alt looks around · right, middle or shift drag pans · wheel zooms · WASD and QE fly
-//   arrows orbit, with shift pan · + and - zoom
-//   one finger orbits · two fingers pan and pinch
+//   left drag turns · right, middle or shift drag pans · wheel zooms · WASD and QE fly
+//   arrows turn, with shift pan · + and - zoom
+//   one finger turns · two fingers pan and pinch
+//
+// To turn is to orbit about the target, or inside a room to look around, since an orbit would carry
+// the eye through the wall behind it. With alt it is the other of the two.
 
 import { fly, look, orbit, pan, zoom, type Pose } from './camera_controller';
 
@@ -13,12 +16,18 @@ export interface View extends Pose {
 }
 
 export interface InputTarget {
-  /** Null while there is nothing to steer. */
+  /** Null while there is nothing to steer, or somebody else steers. */
   view(): View | null;
+  /** Input came while there is none. */
+  refused(): void;
   setPose(pose: Pose): void;
   setHalfHeight(halfHeight: number): void;
   /** Metres a second of flight. */
   flySpeed(): number;
+  /** Metres from its target that a zoom ends at. */
+  closestM(): number;
+  /** Whether the eye is inside a room. */
+  isInRoom(): boolean;
 }
 
 const kRadPerHeight = Math.PI; // a drag over the whole canvas turns half around
@@ -102,11 +111,15 @@ export class CanvasInput {
   private turnOrZoom({ key, shiftKey }: KeyboardEvent): boolean {
     const view = this.target.view();
     const [arrow, factor] = [kArrows.get(key), kZoomKeys.get(key)];
-    if (!view || (!arrow && !factor)) return false;
+    if (!arrow && !factor) return false;
+    if (!view) {
+      this.target.refused();
+      return false;
+    }
     if (factor) this.zoomBy(view, factor);
     else if (arrow && shiftKey) this.pan(view, -arrow[0], -arrow[1]);
     else if (arrow) {
-      this.target.setPose(orbit(view, -arrow[0] * kRadPerHeight, -arrow[1] * kRadPerHeight));
+      this.turn(view, -arrow[0], -arrow[1], false);
     }
     return true;
   }
@@ -125,10 +138,11 @@ export class CanvasInput {
 
   private pointerMove(event: PointerEvent): void {
     const from = this.pointers.get(event.pointerId);
+    if (!from) return;
     const view = this.target.view();
-    if (!from || !view) return;
-    if (event.buttons === 0) {
+    if (event.buttons === 0 || !view) {
       this.pointers.delete(event.pointerId); // it went up where no event told of it
+      if (event.buttons !== 0) this.target.refused();
       return;
     }
     const to = { x: event.clientX, y: event.clientY };
@@ -137,9 +151,15 @@ export class CanvasInput {
     const dy = (to.y - from.y) / height;
     if (this.pointers.size >= 2) this.pinch(view, event.pointerId, from, to);
     else if ((event.buttons & 6) !== 0 || event.shiftKey) this.pan(view, dx, dy);
-    else if (event.altKey) this.target.setPose(look(view, dx * kRadPerHeight, dy * kRadPerHeight));
-    else this.target.setPose(orbit(view, dx * kRadPerHeight, dy * kRadPerHeight));
+    else this.turn(view, dx, dy, event.altKey);
     this.pointers.set(event.pointerId, to);
+  }
+
+  /** What is seen follows the pointer, which moves by shares of the canvas's height. */
+  private turn(view: View, dx: number, dy: number, alt: boolean): void {
+    const looks = !view.orthographic && this.target.isInRoom() !== alt;
+    const radPerHeight = looks ? -(view.fovDeg * Math.PI) / 180 : kRadPerHeight;
+    this.target.setPose((looks ? look : orbit)(view, dx * radPerHeight, dy * radPerHeight));
   }
 
   private pan(view: View, dx: number, dy: number): void {
@@ -161,14 +181,17 @@ export class CanvasInput {
   private wheel(event: WheelEvent): void {
     event.preventDefault();
     const view = this.target.view();
-    if (!view) return;
+    if (!view) {
+      this.target.refused();
+      return;
+    }
     const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? kPixelsPerLine : 1;
     this.zoomBy(view, Math.exp(event.deltaY * unit * kZoomPerPixel));
   }
 
   private zoomBy(view: View, factor: number): void {
     if (view.orthographic) this.target.setHalfHeight(view.halfHeight * factor);
-    else this.target.setPose(zoom(view, factor));
+    else this.target.setPose(zoom(view, factor, this.target.closestM()));
   }
 
   private scheduleStep(): void {
@@ -181,6 +204,7 @@ export class CanvasInput {
     const view = this.target.view();
     if (this.keys.size === 0 || this.lastStepMs === null || !view) {
       this.lastStepMs = null;
+      if (!view && this.keys.size > 0) this.target.refused();
       return;
     }
     const seconds = Math.min(kLongestStepS, Math.max(0, (nowMs - this.lastStepMs) / 1000));

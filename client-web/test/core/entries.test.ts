@@ -28,9 +28,9 @@ describe('entries', () => {
   it('Search_HasTheBestFirst', () => {
     expect(titles('set')[0]).toBe('Settings');
     expect(titles('light').slice(0, 2)).toEqual(['Move or stop lights', 'Add a light']);
-    expect(titles('toon')).toEqual(['Next renderer']);
+    expect(titles('toon')).toEqual(['Renderers', 'Next renderer']);
     expect(titles('camera GALLERY')).toEqual(['Camera gallery']);
-    expect(titles('picture save')).toEqual(['Save picture']);
+    expect(titles('picture save')).toEqual(['Save picture', 'Save picture in a size']);
     expect(titles('xyzzy')).toEqual([]);
     expect(titles(' ').length).toBe(all.length);
   });

@@ -129,7 +129,7 @@ describe('Connection', () => {
     expect(env.sockets.length).toBe(1);
   });
 
-  it.each([1000, 1001, 4008, 4010, 4029, 4050])('Close_With%i_IsTriedAgain', (code) => {
+  it.each([1000, 1001, 4008, 4010, 4029, 4030, 4031, 4032, 4033, 4050])('Close_With%i_IsTriedAgain', (code) => {
     env.socket.accept();
     env.socket.drop(code);
     env.pass(10_000);
@@ -229,19 +229,37 @@ describe('Connection', () => {
   });
 
   it('Declined_WhileFull_SaysWhyAndWaitsAsTold', async () => {
-    env.refusal = { reason: 'all 4 sessions of this server are taken', retryAfterMs: 5_000 };
+    env.refusal = { reason: 'not yet', closeCode: 0, retryAfterMs: 5_000 };
     env.randomValue = 0.5;
     env.socket.drop(1006);
     await Promise.resolve();
     expect(links.at(-1)).toEqual({
       phase: 'waiting',
-      reason: 'The server has no place for you now: all 4 sessions of this server are taken.',
+      reason: 'The server has no place for you now: not yet.',
       retryAtMs: env.now + 7_500,
     });
     env.pass(7_499);
     expect(env.sockets.length).toBe(1);
     env.pass(1);
     expect(env.sockets.length).toBe(2);
+  });
+
+  it('NoPlace_SaysWhichOneAndWhatHelps_DeclinedOrClosed', async () => {
+    const said = new Set<string>();
+    for (const closeCode of [4029, 4030, 4031, 4032, 4033]) {
+      env.refusal = { reason: 'for the log', closeCode, retryAfterMs: 5_000 };
+      env.socket.drop(1006);
+      await Promise.resolve();
+      const declined = links.at(-1);
+      connection.open();
+      env.socket.accept();
+      env.socket.drop(closeCode);
+      expect(links.at(-1)).toMatchObject({ phase: 'waiting', reason: declined && 'reason' in declined && declined.reason });
+      if (declined && 'reason' in declined) said.add(declined.reason);
+      connection.open();
+    }
+    expect(said.size).toBe(5);
+    expect([...said].join(' ')).not.toMatch(/ms|for the log|No connection/);
   });
 
   it('Declined_ThoughItWouldBeLetInNow_IsTriedAgainSoon', async () => {
@@ -265,7 +283,7 @@ describe('Connection', () => {
     env.pass(500);
     const announcing = 'ws://host/ws?room=hall&resume=0123456789abcdef';
     expect(env.socket.url).toBe(announcing);
-    env.refusal = { reason: 'full', retryAfterMs: 60_000 };
+    env.refusal = { reason: 'full', closeCode: 4029, retryAfterMs: 60_000 };
     env.socket.drop(1006);
     await Promise.resolve();
     expect(env.asked).toEqual([announcing]);

@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 
 import { vec } from '../../src/core/vec3';
 import { LightKind, PlacedLightsSchema } from '../../src/gen/froxel/v1/common_pb';
-import { lightSetOf, lightSetText } from '../../src/settings/light_set_file';
+import { lightSetOf, lightSetText } from '../../src/settings/light_set';
 import {
   freeId,
   kNewLight,

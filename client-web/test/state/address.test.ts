@@ -13,7 +13,9 @@ import {
   ShadingModel,
   Transparency,
 } from '../../src/gen/froxel/v1/common_pb';
-import { formatAddress, linkTo, parseAddress, stillAddress } from '../../src/state/address';
+import { formatAddress, isLoopback, linkTo, parseAddress, roomLink, stillAddress } from '../../src/state/address';
+import { lightSetOf } from '../../src/settings/light_set';
+import { kNewLight, type PlacedLights } from '../../src/settings/placed_lights';
 import type { SizeMode } from '../../src/state/size_policy';
 import { kBounds, sampleSettings } from '../sample';
 
@@ -37,14 +39,27 @@ describe('links', () => {
   });
 });
 
+describe('links to rooms', () => {
+  it('HaveTheRoomAlone', () => {
+    expect(roomLink('us', 'https://froxel.example/below/')).toBe('https://froxel.example/below/?room=us');
+  });
+});
+
+describe('isLoopback', () => {
+  it('OfHostsThatLeadToEachComputerItself', () => {
+    expect(['localhost', 'a.localhost', '127.0.0.1', '127.9.0.1', '[::1]'].filter(isLoopback)).toHaveLength(5);
+    expect(['froxel.example', '10.0.0.1', '[::2]', 'localhost.example'].filter(isLoopback)).toEqual([]);
+  });
+});
+
 describe('stills', () => {
   it('HaveWhatIsOver_OverTheView_AndNothingTwice', () => {
-    const query = new URLSearchParams(stillAddress(initial, 'a b', 'lights=7&bloom=none'));
+    const query = new URLSearchParams(stillAddress(initial, 'a b', 'lights=7&bloom=none&size=64x36'));
     expect(query.get('lights')).toBe('7');
     expect(query.get('bloom')).toBe('none');
     expect(query.get('scene')).toBe('a b');
-    expect(query.get('size')).toMatch(/^\d+x\d+$/);
-    expect(query.get('eye')).toBe(new URLSearchParams(formatAddress(initial, kAuto, initial)).get('eye'));
+    expect(query.get('size')).toBe('64x36');
+    expect(query.get('eye')).toBe([initial.eye.x, initial.eye.y, initial.eye.z].join(','));
     expect(new Set(query.keys()).size).toBe([...query.keys()].length);
   });
 });
@@ -107,7 +122,9 @@ describe('addresses', () => {
     const address = parseAddress(written);
     expect({ ...initial, ...address.settings }).toEqual(settings);
     expect(written).not.toContain('fov');
-    expect(formatAddress(initial, kAuto, initial)).toContain('fov');
+    const back = formatAddress({ ...settings, orthographic: false }, kAuto, settings);
+    expect(back).toContain('fov');
+    expect(parseAddress(back).settings.orthographic).toBe(false);
   });
 
   it('Scene_IsInTheAddressWhereThereAreSeveral', () => {
@@ -121,8 +138,25 @@ describe('addresses', () => {
     expect(formatAddress(initial, kAuto, initial)).not.toMatch(/toon_(fragment|compute)=/);
   });
 
+  it('WhatIsAsAtFirst_IsNotInTheAddress', () => {
+    expect(formatAddress(initial, null, initial)).toBe('');
+    expect(formatAddress(sampleSettings({ lights: 5 }), null, initial)).toBe('lights=5');
+    expect(formatAddress(initial, kAuto, initial)).toBe('size=auto@0.75');
+  });
+
+  it('PlacedLights_AreInTheAddress_AndWhereAllWereRemoved', () => {
+    const light = { ...kNewLight, id: 3, position: { x: 0.1, y: 2, z: -3 }, color: { x: 1, y: 0.5, z: 0 } };
+    const placed = sampleSettings({ placedLights: [light] });
+    const written = formatAddress(placed, null, initial);
+    expect(parseAddress(written).problems).toEqual([]);
+    const lightsOf = (address: string): PlacedLights => lightSetOf(parseAddress(address).lightSet ?? '');
+    expect(lightsOf(written)).toEqual([light]);
+    expect(lightsOf(formatAddress(initial, null, placed))).toEqual([]);
+    expect(written.length).toBeLessThan(200);
+  });
+
   it('AutomaticGrid_HasNoSizeInTheAddress', () => {
-    const text = formatAddress(initial, kAuto, initial);
+    const text = formatAddress(initial, kAuto, sampleSettings({ gridAutomatic: false, gridX: 5 }));
     expect(text).toContain('grid.auto=1');
     expect(text).not.toContain('grid.x');
   });
@@ -170,8 +204,8 @@ describe('addresses', () => {
   });
 
   it('NothingAfterTheHash_IsNothing', () => {
-    expect(parseAddress('')).toEqual({ settings: {}, size: null, scene: null, problems: [] });
-    expect(parseAddress('#')).toEqual({ settings: {}, size: null, scene: null, problems: [] });
+    expect(parseAddress('')).toEqual({ settings: {}, size: null, scene: null, lightSet: null, problems: [] });
+    expect(parseAddress('#')).toEqual({ settings: {}, size: null, scene: null, lightSet: null, problems: [] });
   });
 
   it.each([

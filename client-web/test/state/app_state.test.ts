@@ -45,8 +45,17 @@ describe('a pick', () => {
     expect(state.settings?.lights).toBe(1000); // a newer answer is to come
   });
 
-  it('Missed_TakesNoEditBack', () => {
-    const value = { code: ErrorCode.OUT_OF_RANGE, refSeq: 4n, message: 'x is at no light' };
+  it('Missed_GoesHome_WithoutAWord', () => {
+    const aside = run(asked, { type: 'edit', patch: { eye: { x: 9, y: 9, z: 9 } } });
+    const value = { code: ErrorCode.OUT_OF_RANGE, refSeq: 4n, field: 'x', message: 'x is at no light' };
+    const state = run(aside, received({ case: 'error', value }));
+    expect(state.settings?.eye).toEqual(live.server?.initial.eye);
+    expect(state.pick).toBeNull();
+    expect(state.notice).toBeNull();
+  });
+
+  it('Refused_TakesNoEditBack', () => {
+    const value = { code: ErrorCode.OUT_OF_RANGE, refSeq: 4n, field: 'id', message: 'x is at no light' };
     const state = run(asked, edit(7), received({ case: 'error', value }));
     expect(state.settings?.lights).toBe(7);
     expect(state.pick).toBeNull();
@@ -107,6 +116,20 @@ describe('welcome', () => {
     const state = run(kInitialState, wanted, welcomed());
     expect(state.settings?.lights).toBe(5);
     expect(state.sent?.lights).toBe(1000);
+  });
+
+  it.each([
+    ['restored before Welcome', (wanted: Action) => run(kInitialState, wanted, welcomed())],
+    ['restored later', (wanted: Action) => run(live, wanted)],
+  ])('ViewWithNothingOfTheSceneInIt_IsTheFirstView_AndSaysSo: %s', (_, open) => {
+    const away = { eye: { x: 0, y: 2, z: 1e6 }, target: { x: 0, y: 2, z: 2e6 }, lights: 5 };
+    const state = open({ type: 'restored', wanted: away, size: null });
+    expect(state.settings?.eye).toEqual(live.settings?.eye);
+    expect(state.settings?.lights).toBe(5);
+    expect(state.notice?.text).toMatch(/shows nothing of the scene/);
+    const seen = open({ type: 'restored', wanted: { ...away, target: { x: 0, y: 2, z: 0 } }, size: null });
+    expect(seen.settings?.eye.z).toBe(1e6);
+    expect(seen.notice).toBeNull();
   });
 
   it('AfterAReconnect_TheViewGoesOn', () => {
@@ -193,7 +216,7 @@ describe('errors', () => {
     const state = run(sent(run(live, edit(1e9)), 1n), error(1n));
     expect(state.settings?.lights).toBe(1000);
     expect(state.sent?.lights).toBe(1000);
-    expect(state.notice).toEqual({ text: 'lights = 1e9: 0 to 100000', tone: 'error' });
+    expect(state.notice).toMatchObject({ text: 'lights = 1e9: 0 to 100000', tone: 'error' });
   });
 
   it('OfNoCommand_OnlyShow', () => {
@@ -228,5 +251,23 @@ describe('others', () => {
     const state = run(live, { type: 'link', link: { phase: 'connecting' } });
     expect(state.sent).toBeNull();
     expect(state.settings?.lights).toBe(1000);
+  });
+});
+
+describe('a refusal', () => {
+  const value = { code: ErrorCode.CAPACITY, refSeq: 4n, message: 'too large' };
+  const refused = run(sent(live, 4n), received({ case: 'error', value }));
+
+  it('IsSaidUntilALaterCommandIsAnswered', () => {
+    expect(run(refused, answer(4n, 5)).notice?.text).toBe('too large'); // takes the command back
+    expect(run(refused, answer(5n, 5)).notice).toBeNull();
+  });
+
+  it('IsOverOnAnotherScene', () => {
+    const changed = received({
+      case: 'sceneChanged',
+      value: { scene: { name: 'fox', id: 'fox' }, state: viewState(), defaults: viewState() },
+    });
+    expect(run(refused, changed).notice).toBeNull();
   });
 });

@@ -1,6 +1,8 @@
+import { create } from '@bufbuild/protobuf';
 import { describe, expect, it } from 'vitest';
 
 import { kInitialState, reduce, type AppState } from '../../src/state/app_state';
+import { FrameHeaderSchema } from '../../src/gen/froxel/v1/server_pb';
 import { serverMessage } from '../fakes';
 import { count } from '../../src/core/format';
 import { welcome } from '../sample';
@@ -12,7 +14,7 @@ const welcomed = reduce(
 );
 const live: AppState = { ...kInitialState, link: { phase: 'live' } };
 const standing = (state: AppState, moment: Partial<Moment> = {}): Standing =>
-  standingOf(state, { nowMs: 1_000, hasPicture: true, lagMs: 0, ...moment });
+  standingOf(state, { nowMs: 1_000, hasPicture: true, lagMs: 0, shown: null, ...moment });
 
 describe('standingOf', () => {
   it('Live_SaysNothing', () => {
@@ -30,7 +32,35 @@ describe('standingOf', () => {
   it('ConnectingAgain_DimsTheOldPicture', () => {
     expect(standing(kInitialState)).toMatchObject({ text: 'Connecting…', progress: null, dims: true });
     const loading = { ...kInitialState, loading: { stage: 'reading the scene', fraction: 1 } };
-    expect(standing(loading).text).toBe('Reading the scene, 100 %');
+    expect(standing(loading)).toMatchObject({
+      text: 'The server started anew.',
+      aside: 'Reading the scene, 100 %.',
+    });
+  });
+
+  it('TooDearForTheMachine_SaysHowLargeItIsShown', () => {
+    const shown = create(FrameHeaderSchema, { fullSizeUs: 1_234_000, width: 426, height: 240 });
+    const { text, tone, remedy } = standing(welcomed, { shown });
+    expect([text, tone, remedy]).toEqual([
+      'This machine needs 1.2 s a picture at 960×540; shown at 426×240.', 'info', null,
+    ]);
+    expect(standing(welcomed, { shown: create(FrameHeaderSchema, { width: 426, height: 240 }) }).text).toBe('');
+  });
+
+  it('Notice_LeavesTheProgressInSight', () => {
+    const notice = { text: 'too large', tone: 'error' } as const;
+    const sceneLoading = { scene: 'fox', stage: 'reading', fraction: 0.5 };
+    expect(standing({ ...live, notice })).toMatchObject({ text: 'too large', progress: null });
+    const progress = { text: 'Reading, 50 %', fraction: 0.5 };
+    expect(standing({ ...live, notice, sceneLoading })).toMatchObject({ text: 'too large', progress });
+  });
+
+  it('ShadersAreCompiled_SaysSo_RatherThanThatTheViewIsSlow', () => {
+    const loading = { stage: 'compiling shaders', fraction: 0 };
+    expect(standing({ ...live, loading }, { lagMs: 9_000 })).toMatchObject({
+      text: 'This view is drawn for the first time.',
+      aside: 'Compiling shaders.',
+    });
   });
 
   it('Waiting_CountsDownAndMayBeCutShort', () => {

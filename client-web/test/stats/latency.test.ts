@@ -47,6 +47,19 @@ describe('InputLatency', () => {
     expect(new InputLatency().painted(0n, 0n, 99)).toBeNull();
   });
 
+  it('CommandThatChangesNothing_IsNotWaitedFor', () => {
+    const latency = new InputLatency();
+    latency.asked(1n, 1_000);
+    latency.answered(1n, true);
+    latency.asked(2n, 1_100);
+    latency.answered(2n, false);
+    expect(latency.lagMs(1_200)).toBe(200); // for the picture of the first
+    latency.painted(1n, 0n, 1_300);
+    latency.asked(3n, 1_400);
+    latency.answered(3n, false);
+    expect(latency.lagMs(9_000)).toBe(0);
+  });
+
   it('Lag_GrowsUntilAFrameShowsWhatWasAsked', () => {
     const latency = new InputLatency();
     expect(latency.lagMs(1_000)).toBe(0);

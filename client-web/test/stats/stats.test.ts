@@ -50,4 +50,14 @@ describe('Stats', () => {
     for (const nowMs of [2000, 2050, 9000]) stats.painted(header, 1, nowMs);
     expect(stats.history.intervalMs).toEqual([null, 50, null]);
   });
+
+  it('IsStill_WhenNothingIsAskedForAndNoPictureComes', () => {
+    const stats = new Stats();
+    expect(stats.figures(1_000).isStill).toBe(false); // before the first picture
+    stats.painted(header, 1, 1_000);
+    expect(stats.figures(1_500).isStill).toBe(false);
+    expect(stats.figures(4_000).isStill).toBe(true);
+    stats.asked(2n, 4_000);
+    expect(stats.figures(8_000).isStill).toBe(false); // a slow one
+  });
 });

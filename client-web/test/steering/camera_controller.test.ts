@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 
 import { cross, length, sub, vec, type Vec } from '../../src/core/vec3';
-import { fly, look, orbit, pan, zoom, type Pose } from '../../src/steering/camera_controller';
+import { fly, look, orbit, pan, withinReach, zoom, type Pose } from '../../src/steering/camera_controller';
 
 const kPose: Pose = { eye: vec(0, 1, 5), target: vec(0, 1, 0), up: vec(0, 1, 0) };
 const distance = (pose: Pose): number => length(sub(pose.target, pose.eye));
@@ -64,15 +64,47 @@ describe('pan', () => {
 
 describe('zoom', () => {
   it('ScalesTheDistance', () => {
-    expectVec(zoom(kPose, 0.5).eye, 0, 1, 2.5);
-    expectVec(zoom(kPose, 2).eye, 0, 1, 10);
+    expectVec(zoom(kPose, 0.5, 0.05).eye, 0, 1, 2.5);
+    expectVec(zoom(kPose, 2, 0.05).eye, 0, 1, 10);
   });
 
   it('AtTheClosest_PushesTheTargetAlong', () => {
     let pose = kPose;
-    for (let i = 0; i < 200; i += 1) pose = zoom(pose, 0.8);
+    for (let i = 0; i < 200; i += 1) pose = zoom(pose, 0.8, 0.05);
     expect(distance(pose)).toBeCloseTo(0.05, 9);
     expect(pose.eye.z).toBeLessThan(0);
+  });
+});
+
+describe('withinReach', () => {
+  const reach = { centre: vec(0, 0, 0), radiusM: 20 };
+  const eyeDistance = ({ eye }: Pose): number => length(eye);
+
+  it('120NotchesOut_EndsAtItsEdge_AndOneBackIsNearer', () => {
+    let pose = kPose;
+    for (let i = 0; i < 120; i += 1) pose = withinReach(pose, zoom(pose, 1.2, 0.05), reach);
+    expect(eyeDistance(pose)).toBeCloseTo(20, 6);
+    expectVec(pose.target, 0, 1, 0);
+    const back = withinReach(pose, zoom(pose, 1 / 1.2, 0.05), reach);
+    expect(eyeDistance(back)).toBeLessThan(18);
+  });
+
+  it('Pan_EndsForEyeAndTarget', () => {
+    let pose = kPose;
+    for (let i = 0; i < 500; i += 1) pose = withinReach(pose, pan(pose, -0.5, 0, 4), reach);
+    expect(Math.max(length(pose.eye), length(pose.target))).toBeCloseTo(20, 6);
+    expect(distance(pose)).toBeCloseTo(5, 9);
+  });
+
+  it('WhoIsOutside_MayComeNearer_AndGoesNoFarther', () => {
+    const outside: Pose = { eye: vec(0, 0, 100), target: vec(0, 0, 0), up: vec(0, 1, 0) };
+    expect(withinReach(outside, zoom(outside, 0.5, 0.05), reach).eye.z).toBeCloseTo(50, 6);
+    expect(withinReach(outside, zoom(outside, 2, 0.05), reach).eye.z).toBeCloseTo(100, 6);
+  });
+
+  it('NoMove_StaysAsItIs', () => {
+    const outside: Pose = { eye: vec(0, 0, 100), target: vec(0, 0, 0), up: vec(0, 1, 0) };
+    expect(withinReach(outside, outside, reach)).toEqual(outside);
   });
 });
 

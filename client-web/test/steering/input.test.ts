@@ -17,6 +17,8 @@ let canvas: FakeCanvas;
 let input: CanvasInput;
 let view: View | null;
 let halfHeight: number | null;
+let inRoom: boolean;
+let refusals: number;
 let frames: ((nowMs: number) => void)[];
 
 function send(type: string, fields: object): Event {
@@ -41,6 +43,8 @@ beforeEach(() => {
   canvas = new FakeCanvas();
   frames = [];
   halfHeight = null;
+  inRoom = false;
+  refusals = 0;
   view = {
     eye: { x: 0, y: 0, z: 10 },
     target: { x: 0, y: 0, z: 0 },
@@ -53,7 +57,10 @@ beforeEach(() => {
     view: () => view,
     setPose: (pose: Pose) => (view = view && { ...view, ...pose }),
     setHalfHeight: (value: number) => (halfHeight = value),
+    refused: () => (refusals += 1),
     flySpeed: () => 2,
+    closestM: () => 0.05,
+    isInRoom: () => inRoom,
   };
   input = new CanvasInput(canvas as unknown as HTMLElement, target, (action) => frames.push(action));
 });
@@ -64,6 +71,52 @@ describe('pointers', () => {
     pointer('pointermove', 1, 50, 0);
     expect(current().eye.x).toBeCloseTo(-10, 9);
     expect(current().target).toEqual({ x: 0, y: 0, z: 0 });
+  });
+
+  it.each([
+    ['Room_Drag', true, false],
+    ['Outside_AltDrag', false, true],
+  ])('%s_LooksAround_WhatIsSeenFollowsThePointer', (_, room, altKey) => {
+    inRoom = room;
+    pointer('pointerdown', 1, 0, 0);
+    pointer('pointermove', 1, 50, 0, { altKey });
+    // Half of a picture of 90 degrees to the right: the view turns 45 degrees to the left.
+    expect(current().eye).toEqual({ x: 0, y: 0, z: 10 });
+    expect(current().target.x).toBeCloseTo(-10 * Math.SQRT1_2, 9);
+    expect(current().target.z).toBeCloseTo(10 - 10 * Math.SQRT1_2, 9);
+  });
+
+  it.each([
+    ['AltDrag', false, true],
+    ['OrthographicDrag', true, false],
+  ])('Room_%s_Orbits', (_, orthographic, altKey) => {
+    inRoom = true;
+    view = { ...current(), orthographic };
+    pointer('pointerdown', 1, 0, 0);
+    pointer('pointermove', 1, 50, 0, { altKey });
+    expect(current().eye.x).toBeCloseTo(-10, 9);
+    expect(current().target).toEqual({ x: 0, y: 0, z: 0 });
+  });
+
+  it('Room_RightArrow_TurnsRight', () => {
+    inRoom = true;
+    expect(input.keyDown(key('ArrowRight', false, false, { key: 'ArrowRight' }))).toBe(true);
+    expect(current().eye).toEqual({ x: 0, y: 0, z: 10 });
+    expect(current().target.x).toBeGreaterThan(0);
+  });
+
+  it('NothingToSteer_ADragIsRefusedOnce_AndSoAreWheelAndKeys', () => {
+    view = null;
+    pointer('pointerdown', 1, 0, 0);
+    for (const x of [10, 20, 30]) pointer('pointermove', 1, x, 0);
+    expect(refusals).toBe(1);
+    send('wheel', { deltaY: 100, deltaMode: 0 });
+    expect(refusals).toBe(2);
+    input.keyDown(key('ArrowLeft', false, false, { key: 'ArrowLeft' }));
+    expect(refusals).toBe(3);
+    pointer('pointerup', 1, 0, 0);
+    pointer('pointermove', 1, 50, 0, { buttons: 0 });
+    expect(refusals).toBe(3);
   });
 
   it('MoveWithoutAButton_DoesNothing', () => {
