@@ -272,6 +272,12 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     slot.dressing = builder_.pose().dressing();
     const UploadOffsets offsets = builder_.upload(slot, effects_.ofFrame());
     prepareParts(slot, plan, offsets);
+    // However fine the pieces are to be: a part's halves may be left at half of that, and each part
+    // has a timestamp.
+    constexpr double kMostParts = 512;
+    static_assert(4 * kMostParts <= gpu::Timestamps::kMaxPasses / 2);
+    const Seconds fine = std::max(limits.piece * piece_share_, Seconds(costs.total()) / kMostParts);
+    const Seconds piece = std::max(limits.piece, fine);
     recordFrame(
         {.scene = scene_,
          .slot = slot,
@@ -283,7 +289,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
          .effects = effects_.ofFrame(),
          .pieces = slot.pieces,
          .costs = costs},
-        limits.piece, piece_share_);
+        piece, fine / piece);
     if (slot.pieces.estimate() > limits.frame) { // with what each piece does again
         markFresh(slot);
         return tooLongInPieces(asked.settings.size, slot.pieces, limits.frame);

@@ -408,6 +408,18 @@ TEST_F(Pieces, ListsThatHoldNearlyAllLights_CountAsWhatTheyHold) {
     }
 }
 
+// A device of a fast pace, of whose pieces a view has a small share: each part has a timestamp.
+TEST_F(Pieces, HoweverFine_HaveTheirTimestamps) {
+    render::ViewRenderer view(renderer(), {}, {Seconds(100), Seconds(1e-6)});
+    view.setPace({.pace = 1.0 / 32, .frame_share = 1});
+    auto asked = inputs();
+    asked.settings.size = {1280, 720};
+    const auto begun = view.begin(asked);
+    ASSERT_TRUE(begun);
+    EXPECT_GT(begun->piece_count, 100U);
+    EXPECT_LT(begun->piece_count, 4096U);
+}
+
 // By a GPU's prices: there a loop over many lights takes long, however few pixels go through it.
 // Lists that the device makes are known after a first look; what one loop may take bounds them.
 TEST_F(Pieces, ListsLongerThanALoopMayBe_AreRefused_OthersDrawnAgainAndAgain) {
