@@ -303,9 +303,7 @@ async function makeSearch(): Promise<SearchCard> {
 function prefetch(): void {
   handles.ahead();
   panel.ahead();
-  roomCard.ahead();
   looksCard.ahead();
-  renderersCard.ahead();
   if (hasScenes()) scenesCard.ahead();
   searchCard.ahead();
   statsCard.prefetch();
