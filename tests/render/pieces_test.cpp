@@ -410,7 +410,7 @@ TEST_F(Pieces, ListsThatHoldNearlyAllLights_CountAsWhatTheyHold) {
 
 // A device of a fast pace, of whose pieces a view has a small share: each part has a timestamp.
 TEST_F(Pieces, HoweverFine_HaveTheirTimestamps) {
-    render::ViewRenderer view(renderer(), {}, {Seconds(100), Seconds(1e-6)});
+    render::ViewRenderer view(renderer(), {}, {Seconds(100), Seconds(1e-9)});
     view.setPace({.pace = 1.0 / 32, .frame_share = 1});
     auto asked = inputs();
     asked.settings.size = {1280, 720};
