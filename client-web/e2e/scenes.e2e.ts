@@ -1,6 +1,6 @@
 // The gallery: a scene is chosen, carried by a link, called off, refused, and named by any bytes.
 
-import { copyFileSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdtempSync, rmSync, utimesSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
@@ -17,6 +17,12 @@ const folder = mkdtempSync(join(tmpdir(), 'froxel_scenes_'));
 copyFileSync(kTriangle, join(folder, 'triangle.gltf'));
 copyFileSync(kTriangle, join(folder, `${kHostile}.gltf`));
 writeFileSync(join(folder, 'broken.glb'), 'this is no GLB');
+const kMany = ['a', 'b', 'c', 'd', 'e', 'f', 'g', 'h', 'i', 'j'];
+kMany.forEach((letter, day) => {
+  copyFileSync(kTriangle, join(folder, `many-${letter}.gltf`));
+  const written = Date.UTC(2030, 0, 1 + day) / 1000;
+  utimesSync(join(folder, `many-${letter}.gltf`), written, written);
+});
 afterAll(() => rmSync(folder, { recursive: true }));
 
 const pages = usePages(['--scenes', folder]);
@@ -57,6 +63,19 @@ it('Gallery_BrokenFile_IsOneLineAndChangesNothing', async () => {
   expect(await viewer.page.locator('#scene-name').textContent()).toBe('Hall');
   await choose(viewer, 'triangle');
   await sceneName(viewer, 'triangle');
+});
+
+it('Gallery_OrdersByNameOrTime_AndHasSizesWithSideFiles', async () => {
+  const viewer = await pages.open(kStill);
+  await viewer.page.locator('#tool-scenes').click();
+  const names = viewer.page.locator('#scenes-list span');
+  await until('the scenes', async () => (await names.count()) > kMany.length);
+  const byName = await names.allTextContents();
+  expect(byName).toEqual([...byName].sort((a, b) => a.localeCompare(b)));
+  await viewer.page.locator('#scenes-order').selectOption('newest');
+  expect((await names.allTextContents()).slice(0, kMany.length)).toEqual(kMany.map((letter) => `many-${letter}`).reverse());
+  // The file's own buffer is in it, so it is as large as it is.
+  await until('a size', async () => /GLTF, \d/.test((await viewer.page.locator('#scenes-list small').first().textContent()) ?? ''));
 });
 
 it('Gallery_NamesAreText', async () => {

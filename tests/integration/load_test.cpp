@@ -63,6 +63,15 @@ class Load : public testing::Test {
     std::string folder_;
 };
 
+TEST_F(Load, JsonToStandardOutput_IsAllThatIsThere) {
+    const TestServer server;
+    const auto end =
+        load(server.port(), {"--viewers", "1", "--seconds", "1", "--ramp", "0", "--json", "-"});
+    EXPECT_EQ(end.exit_code, 0) << end.errors;
+    EXPECT_EQ(Json::parse(end.output)["schema"], "froxel.load.v1");
+    EXPECT_NE(end.errors.find("viewers: "), std::string::npos) << end.errors;
+}
+
 TEST_F(Load, ThreeViewers_Orbit_GetFramesAndLatencies) {
     const TestServer server;
     const Json report =

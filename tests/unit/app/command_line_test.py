@@ -122,6 +122,29 @@ class CommandLine(unittest.TestCase):
         self.assertGreater(max(values), 0)
         self.assertTrue(all(value >= 0 for value in values))
 
+    def test_render_names_its_files_and_info_says_what_a_picture_is(self):
+        out, timings = self.folder / "a.png", self.folder / "t.json"
+        run = froxel("render", *SMALL, "--out", out, "--timings", timings)
+        self.assertEqual(run.stdout.splitlines()[-2:], [f"wrote {out}", f"wrote {timings}"])
+        told = json.loads(froxel("info", out, "--json").stdout)
+        self.assertEqual(told, {"picture": {"type": "image/png", "width_px": 64, "height_px": 36}})
+        broken = self.folder / "broken.png"
+        broken.write_bytes(out.read_bytes()[:20])
+        self.assert_refused(froxel("info", broken), 3, "broken.png")
+
+    def test_exr_holds_the_floats_of_pfm(self):
+        exr, pfm = self.render("a.exr"), self.render("a.pfm")
+        self.assertEqual(exr[:4], b"\x76\x2f\x31\x01")  # OpenEXR's magic number
+        self.assertGreater(len(exr), 64 * 36 * 12)
+        # Its last line has a line's blues, greens and reds one after the other.
+        reds = array.array("f", exr[-64 * 4:])
+        first_row = array.array("f", pfm[-64 * 36 * 12:][: 64 * 12])  # a .pfm begins at the bottom
+        self.assertEqual(reds, first_row[0::3])
+
+    def test_view_without_a_look_is_what_the_page_begins_with(self):
+        self.assertEqual(self.render("a.pfm"), self.render("b.pfm", "--look", "evening"))
+        self.assertNotEqual(self.render("a.pfm"), self.render("c.pfm", "--look", "none"))
+
     def test_same_options_same_bytes_and_another_seed_others(self):
         first = self.render("a.pfm", "--time", "1.5")
         self.assertEqual(first, self.render("b.pfm", "--time", "1.5"))
