@@ -47,7 +47,7 @@ export interface Notice {
   readonly text: string;
   readonly tone: 'error' | 'info';
   readonly stays?: boolean; // until it is dismissed, or another connection is there
-  readonly refSeq?: bigint; // of the command that was refused: news once a later one is answered
+  readonly sentSeq?: bigint; // newest command when one was refused: news until a later one is answered
 }
 
 /** Of a PickLight: its seq, and the id that the light is to have. */
@@ -216,7 +216,7 @@ function received(state: AppState, message: ServerMessage): AppState {
       const stale =
         mayControl(state.room) &&
         (state.settings !== state.sent || answer.refSeq < state.sentSeq);
-      const isOld = state.notice?.refSeq !== undefined && answer.refSeq > state.notice.refSeq;
+      const isOld = state.notice?.sentSeq !== undefined && answer.refSeq > state.notice.sentSeq;
       const notice = isOld ? null : state.notice;
       const told = { ...state, confirmed, notice, ...picked(state, answer.refSeq, placed) };
       return stale ? told : { ...told, settings: confirmed, sent: confirmed };
@@ -242,7 +242,7 @@ function received(state: AppState, message: ServerMessage): AppState {
       return {
         ...state,
         ...(body.value.refSeq > 0n && { settings: state.confirmed, sent: state.confirmed }),
-        notice: { text: body.value.message, tone: 'error', refSeq: body.value.refSeq },
+        notice: { text: body.value.message, tone: 'error', sentSeq: state.sentSeq },
       };
     case 'loading':
       return { ...state, loading: body.value.stage === '' ? null : { stage: body.value.stage, fraction: body.value.fraction } };

@@ -261,6 +261,10 @@ describe('a refusal', () => {
   it('IsSaidUntilALaterCommandIsAnswered', () => {
     expect(run(refused, answer(4n, 5)).notice?.text).toBe('too large'); // takes the command back
     expect(run(refused, answer(5n, 5)).notice).toBeNull();
+    // Sent together: the answer to what was sent beside it is no reason to forget it.
+    const beside = run(sent(live, 6n), received({ case: 'error', value }));
+    expect(run(beside, answer(6n, 5)).notice?.text).toBe('too large');
+    expect(run(beside, answer(7n, 5)).notice).toBeNull();
   });
 
   it('IsOverOnAnotherScene', () => {
