@@ -18,6 +18,23 @@ double microsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
 }
 
+// What a part of a frame takes that is to be cut this fine: each part has a timestamp, and the
+// halves of one may be left at half of it.
+Seconds partOf(Seconds frame, Seconds wanted) {
+    constexpr double kMostParts = 512;
+    static_assert(4 * kMostParts <= gpu::Timestamps::kMaxPasses / 2);
+    return std::max(wanted, frame / kMostParts);
+}
+
+// None of its pieces was submitted yet.
+void beginFlight(FrameSlot& slot) {
+    slot.done_values.clear();
+    slot.waited_count = 0;
+    slot.given_up = false;
+    slot.in_flight = true;
+    slot.stale = false;
+}
+
 } // namespace
 
 Result<void> FrameMaker::takeMemory(FrameSlot& slot,
@@ -272,11 +289,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     slot.dressing = builder_.pose().dressing();
     const UploadOffsets offsets = builder_.upload(slot, effects_.ofFrame());
     prepareParts(slot, plan, offsets);
-    // However fine the pieces are to be: a part's halves may be left at half of that, and each part
-    // has a timestamp.
-    constexpr double kMostParts = 512;
-    static_assert(4 * kMostParts <= gpu::Timestamps::kMaxPasses / 2);
-    const Seconds fine = std::max(limits.piece * piece_share_, Seconds(costs.total()) / kMostParts);
+    const Seconds fine = partOf(costs.total(), limits.piece * piece_share_);
     const Seconds piece = std::max(limits.piece, fine);
     recordFrame(
         {.scene = scene_,
@@ -299,11 +312,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     slot.stats.host_us = built_us_ + microsSince(start);
     slot.stats.unpaced_us = Microseconds(slot.pieces.estimate()).count() / pace_.pace;
     slot.submitted = started_;
-    slot.done_values.clear();
-    slot.waited_count = 0;
-    slot.given_up = false;
-    slot.in_flight = true;
-    slot.stale = false;
+    beginFlight(slot);
     return {};
 }
 
