@@ -6,6 +6,9 @@ export function ms(value: number | null): string {
   return value < 9.95 ? value.toFixed(2) : value < 99.5 ? value.toFixed(1) : value.toFixed(0);
 }
 
+/** A round time along an axis, in few letters however long it is. */
+export const axisText = (value: number): string => (value < 10_000 ? `${value} ms` : `${value / 1000} s`);
+
 /** The same of a time that ought to be there. */
 export const timeText = (value: number | null): string => (value === null ? 'unknown' : ms(value));
 

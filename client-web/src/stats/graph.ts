@@ -3,10 +3,10 @@
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 
+import { axisText } from '../core/format';
 import type { History } from './stats';
 
 const kDigitPx = 5.6; // of the axis's font
-const axisText = (ms: number): string => (ms < 10_000 ? `${ms} ms` : `${ms / 1000} s`);
 const widest = (texts: string[] | null): number =>
   12 + kDigitPx * Math.max(0, ...(texts ?? []).map(({ length }) => length));
 

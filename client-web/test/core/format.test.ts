@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
-import { bytes, count, gridText, ms, percent, tidy, timeText } from '../../src/core/format';
+import { axisText, bytes, count, gridText, ms, percent, tidy, timeText } from '../../src/core/format';
 
 describe('format', () => {
   it('Milliseconds_HaveThreeDigitsOrSo', () => {
@@ -34,5 +34,11 @@ describe('format', () => {
   it('Counts_AreGroupedByThree', () => {
     expect(count(1_234_567n)).toBe('1\u2009234\u2009567');
     expect(count(12)).toBe('12');
+  });
+});
+
+describe('axisText', () => {
+  it('HasAUnit_AndIsShortHoweverLongTheTime', () => {
+    expect([0, 500, 9_500, 10_000, 250_000].map(axisText)).toEqual(['0 ms', '500 ms', '9500 ms', '10 s', '250 s']);
   });
 });

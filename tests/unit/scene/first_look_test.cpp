@@ -117,6 +117,15 @@ TEST(LookFor, TheMiddleOfARoomsFloor_IsAsBrightWhateverTheNumberOfLamps) {
     }
 }
 
+TEST(SuitsEvening, SponzaWithoutLightsOfItsOwn_Alone) {
+    Scene scene = makeRoom({0, 0, 0}, 3);
+    EXPECT_FALSE(suitsEvening(scene));
+    scene.name = "Sponza";
+    EXPECT_TRUE(suitsEvening(scene));
+    scene.lights.emplace_back();
+    EXPECT_FALSE(suitsEvening(scene));
+}
+
 TEST(LookFor, AHall_HasLampsAlongIt) {
     settings::ViewSettings settings;
     Scene hall = makeRoom({0, 0, 0}, 3);
