@@ -19,18 +19,22 @@ const cornersOf = ({ min, max }: Bounds): Vec[] =>
   [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => vec(x, y, z))));
 
 interface Axes {
-  readonly forward: Vec;
   readonly right: Vec;
   readonly up: Vec;
+  readonly forward: Vec;
 }
 
-function axesOf({ eye, target, up }: CameraSettings): Axes {
+export function axesOf({ eye, target, up }: CameraSettings): Axes {
   const forward = normalize(sub(target, eye), vec(0, 0, -1));
-  const right = normalize(cross(forward, up), normalize(cross(forward, vec(0, 0, 1)), vec(1, 0, 0)));
-  return { forward, right, up: cross(right, forward) };
+  const right = normalize(cross(forward, up), vec(1, 0, 0));
+  return { right, up: cross(right, forward), forward };
 }
 
-const tanOf = (fovDeg: number): number => Math.tan((fovDeg * Math.PI) / 360);
+/** Metres that half the picture's height spans at a depth. */
+export function halfHeightAt(camera: CameraSettings, depth: number): number {
+  if (camera.orthographic) return camera.halfHeight;
+  return depth * Math.tan((camera.fovDeg * Math.PI) / 360);
+}
 
 /**
  * Whether any of the bounds may be in the picture: no plane of the view's frustum has all corners
@@ -38,11 +42,10 @@ const tanOf = (fovDeg: number): number => Math.tan((fovDeg * Math.PI) / 360);
  */
 export function sees(camera: CameraSettings, aspect: number, bounds: Bounds): boolean {
   const { forward, right, up } = axesOf(camera);
-  const [tan, half] = [tanOf(camera.fovDeg), camera.halfHeight];
   const corners = cornersOf(bounds).map((corner) => {
     const from = sub(corner, camera.eye);
     const depth = dot(from, forward);
-    const reach = camera.orthographic ? half : depth * tan; // up and down at that depth
+    const reach = halfHeightAt(camera, depth); // up and down at that depth
     const [shiftX, shiftY] = [camera.lensShiftX * reach * aspect, camera.lensShiftY * reach];
     return { x: dot(from, right) - shiftX, y: dot(from, up) - shiftY, depth, reach };
   });
@@ -60,7 +63,7 @@ export function sees(camera: CameraSettings, aspect: number, bounds: Bounds): bo
 export function fitted(camera: CameraSettings, aspect: number, bounds: Bounds): CameraSettings {
   const { forward, right, up } = axesOf({ ...camera, up: kUp });
   const centre = centreOf(bounds);
-  const tan = tanOf(camera.fovDeg);
+  const tan = halfHeightAt({ ...camera, orthographic: false }, 1);
   const corners = cornersOf(bounds).map((corner) => sub(corner, centre));
   const half = Math.max(...corners.map((c) => Math.max(Math.abs(dot(c, up)), Math.abs(dot(c, right)) / aspect)));
   const distance = camera.orthographic

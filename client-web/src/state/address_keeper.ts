@@ -66,17 +66,16 @@ export class AddressKeeper {
   }
 
   private async copyLink(what: string, link: string): Promise<void> {
-    const said: string[] = [];
+    let copied = true;
     try {
       await navigator.clipboard.writeText(link);
-      said.push(`The link to ${what} is on the clipboard.`);
     } catch {
-      said.push(`Copy the link to ${what}: ${link}`); // no clipboard without https, or forbidden
+      copied = false; // no clipboard without https, or forbidden
     }
-    const copied = said[0]?.startsWith('The') ?? false;
+    const said = copied ? `The link to ${what} is on the clipboard.` : `Copy the link to ${what}: ${link}`;
     const { hostname } = new URL(link);
-    if (isLoopback(hostname)) said.push(`It leads nowhere from other computers: ${hostname} is each one's name for itself.`);
-    this.store.dispatch({ type: 'notice', tone: 'info', text: said.join(' '), stays: !copied || said.length > 1 });
+    const alone = isLoopback(hostname) ? ` It leads nowhere from other computers: ${hostname} is each one's name for itself.` : '';
+    this.store.dispatch({ type: 'notice', tone: 'info', text: said + alone, stays: !copied || alone !== '' });
   }
 
   private changed(state: AppState, before: AppState): void {

@@ -11,7 +11,8 @@ import { findLight, kindName, type PlacedLight } from '../settings/placed_lights
 import type { Settings } from '../settings/settings';
 import type { AppState } from '../state/app_state';
 import { mayControl } from '../state/room';
-import { halfHeightAt, project, unproject, type PicturePoint } from './projection';
+import { halfHeightAt } from '../settings/sight';
+import { project, unproject, type PicturePoint } from './projection';
 
 export interface HandleActions {
   chooseLight(id: number | null): void;

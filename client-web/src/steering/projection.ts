@@ -1,31 +1,14 @@
 // Where a point of the scene is on the picture, and back, as the server projects it.
 
-import { add, cross, dot, normalize, scale, sub, vec, type Vec } from '../core/vec3';
+import { add, dot, scale, sub, type Vec } from '../core/vec3';
 import type { CameraSettings } from '../settings/settings';
+import { axesOf, halfHeightAt } from '../settings/sight';
 
 /** x to the right and y up, both from -1 to 1 over the picture; depth in metres before the eye. */
 export interface PicturePoint {
   readonly x: number;
   readonly y: number;
   readonly depth: number;
-}
-
-interface Axes {
-  readonly right: Vec;
-  readonly up: Vec;
-  readonly forward: Vec;
-}
-
-function axesOf({ eye, target, up }: CameraSettings): Axes {
-  const forward = normalize(sub(target, eye), vec(0, 0, -1));
-  const right = normalize(cross(forward, up), vec(1, 0, 0));
-  return { right, up: cross(right, forward), forward };
-}
-
-/** Metres that half the picture's height spans at a depth. */
-export function halfHeightAt(camera: CameraSettings, depth: number): number {
-  if (camera.orthographic) return camera.halfHeight;
-  return depth * Math.tan((camera.fovDeg * Math.PI) / 360);
 }
 
 /** Null for what is not in front of the eye. `aspect`: width over height. */
