@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <sys/resource.h>
+#include <unistd.h>
 #include <vector>
 
 namespace froxel::app {
@@ -20,15 +23,22 @@ std::optional<uint64_t> readBytes(const fs::path& path) {
     return file >> bytes ? std::optional(bytes) : std::nullopt;
 }
 
-// Where limits of this process may stand: its group's folder and all above it, of both versions.
-std::vector<fs::path> limitFiles(const fs::path& root) {
+// Where a group's limit stands, and how much its processes take.
+struct GroupFiles {
+    fs::path limit;
+    fs::path taken;
+};
+
+// Those of this process's group and of all above it, of both versions.
+std::vector<GroupFiles> groupFiles(const fs::path& root) {
     const fs::path mount = root / "sys/fs/cgroup";
-    std::vector<fs::path> files;
-    const auto add = [&](fs::path folder, const fs::path& group, const char* name) {
-        files.push_back(folder / name); // a container sees its own group here
+    std::vector<GroupFiles> files;
+    const auto add = [&](fs::path folder, const fs::path& group, const char* limit,
+                         const char* taken) {
+        files.push_back({folder / limit, folder / taken}); // a container sees its own group here
         for (const fs::path& part : group.relative_path()) {
             folder /= part;
-            files.push_back(folder / name);
+            files.push_back({folder / limit, folder / taken});
         }
     };
     std::ifstream groups(root / "proc/self/cgroup");
@@ -41,31 +51,83 @@ std::vector<fs::path> limitFiles(const fs::path& root) {
         const std::string controllers = line.substr(first + 1, second - first - 1);
         const fs::path group = line.substr(second + 1);
         if (controllers.empty()) {
-            add(mount, group, "memory.max");
+            add(mount, group, "memory.max", "memory.current");
         } else if (("," + controllers + ",").find(",memory,") != std::string::npos) {
-            add(mount / "memory", group, "memory.limit_in_bytes");
+            add(mount / "memory", group, "memory.limit_in_bytes", "memory.usage_in_bytes");
         }
     }
     return files;
 }
 
-std::optional<uint64_t> totalMemory(const fs::path& root) {
+std::optional<uint64_t> hostMemory(const fs::path& root, const std::string& wanted) {
     std::ifstream file(root / "proc/meminfo");
-    std::string name;
-    uint64_t kib = 0;
-    return file >> name >> kib && name == "MemTotal:" ? std::optional(kib << 10U) : std::nullopt;
+    for (std::string line; std::getline(file, line);) { // NAME: KIB kB
+        std::istringstream words(line);
+        std::string name;
+        uint64_t kib = 0;
+        if (words >> name >> kib && name == wanted) {
+            return kib << 10U;
+        }
+    }
+    return {};
+}
+
+// That RLIMIT_AS leaves; none where there is no such limit.
+std::optional<uint64_t> freeAddressSpace(const fs::path& root) {
+    rlimit limit{};
+    std::ifstream file(root / "proc/self/statm");
+    uint64_t pages = 0;
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || !(file >> pages)) {
+        return {};
+    }
+    const uint64_t taken = pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+    return taken < limit.rlim_cur ? limit.rlim_cur - taken : 0;
+}
+
+uint64_t share(std::optional<uint64_t> bytes, double part) {
+    return bytes ? static_cast<uint64_t>(part * static_cast<double>(*bytes))
+                 : render::MemoryLimits::kNone;
+}
+
+void keepLeast(std::optional<uint64_t>& least, std::optional<uint64_t> bytes) {
+    if (bytes) {
+        least = std::min(least.value_or(*bytes), *bytes);
+    }
 }
 
 } // namespace
 
 std::optional<uint64_t> hostMemoryBytes(const fs::path& root) {
-    std::optional<uint64_t> least = totalMemory(root);
-    for (const fs::path& file : limitFiles(root)) {
-        if (const auto limit = readBytes(file)) {
-            least = std::min(least.value_or(*limit), *limit);
-        }
+    std::optional<uint64_t> least = hostMemory(root, "MemTotal:");
+    for (const GroupFiles& group : groupFiles(root)) {
+        keepLeast(least, readBytes(group.limit));
     }
     return least;
+}
+
+std::optional<uint64_t> freeMemoryBytes(const fs::path& root) {
+    std::optional<uint64_t> least = hostMemory(root, "MemAvailable:");
+    for (const GroupFiles& group : groupFiles(root)) {
+        const auto limit = readBytes(group.limit);
+        const uint64_t taken = readBytes(group.taken).value_or(0);
+        if (limit) {
+            keepLeast(least, taken < *limit ? *limit - taken : 0);
+        }
+    }
+    keepLeast(least, freeAddressSpace(root));
+    return least;
+}
+
+uint64_t readMemoryBytes() {
+    return share(freeMemoryBytes(), kOnlyReadShare);
+}
+
+uint64_t readMemoryBytes(uint64_t scene_bytes) {
+    const uint64_t of_scene = scene_bytes > render::MemoryLimits::kNone / kReadBytesOfSceneByte
+                                  ? render::MemoryLimits::kNone
+                                  : scene_bytes * kReadBytesOfSceneByte;
+    return std::min(share(freeMemoryBytes(), kSharedReadShare),
+                    std::max(of_scene, kLeastReadBytes));
 }
 
 uint64_t sessionMemoryBytes(const MemoryOptions& options, bool device_is_cpu) {
@@ -82,10 +144,6 @@ uint64_t sceneMemoryBytes(const MemoryOptions& options, const render::MemoryLimi
 render::MemoryLimits memoryLimits(const MemoryOptions& options, const gpu::Device& device) {
     const bool is_cpu = device.traits().is_cpu;
     render::MemoryLimits limits{.session_bytes = sessionMemoryBytes(options, is_cpu)};
-    const auto share = [](std::optional<uint64_t> bytes, double part) {
-        return bytes ? static_cast<uint64_t>(part * static_cast<double>(*bytes))
-                     : render::MemoryLimits::kNone;
-    };
     const uint64_t host_bytes = share(hostMemoryBytes(), kHostMemoryShare);
     limits.device_bytes = options.device_mib ? uint64_t{*options.device_mib} << 20U
                           : is_cpu           ? host_bytes

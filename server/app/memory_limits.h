@@ -29,6 +29,25 @@ inline constexpr double kSceneMemoryShare = 0.5;
 // (version 2 or 1) says so. `root` is where /proc and /sys are; none where nothing can be read.
 [[nodiscard]] std::optional<uint64_t> hostMemoryBytes(const std::filesystem::path& root = "/");
 
+// What this process may still take of the host's memory: what is free there, less where a control
+// group of it or its limit on address space (RLIMIT_AS) leaves less. None where nothing can be
+// read.
+[[nodiscard]] std::optional<uint64_t> freeMemoryBytes(const std::filesystem::path& root = "/");
+
+// Of what is free, what reading a scene may take: the only one; one of two at once, which stay
+// below all of it whenever each begins.
+inline constexpr double kOnlyReadShare = 0.75;
+inline constexpr double kSharedReadShare = 0.5;
+// For each byte of the device that scenes may take: a scene that needs more to be read would be
+// refused anyway.
+inline constexpr uint64_t kReadBytesOfSceneByte = 3;
+inline constexpr uint64_t kLeastReadBytes = uint64_t{256} << 20U;
+
+// Of reading the scene that a command works with, and one that a server goes over to, whose scenes
+// may take `scene_bytes` of the device.
+[[nodiscard]] uint64_t readMemoryBytes();
+[[nodiscard]] uint64_t readMemoryBytes(uint64_t scene_bytes);
+
 struct MemoryOptions {
     std::optional<uint32_t> device_mib;
     std::optional<uint32_t> session_mib;

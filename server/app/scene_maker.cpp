@@ -64,8 +64,9 @@ std::vector<session::OfferedLook> SceneMaker::looksOf(const std::string& source,
 
 Result<stream::ReadScene> SceneMaker::make(const std::string& source,
                                            const SceneChoices& choices,
-                                           const ProgressReport& report) const {
-    auto loaded = loadScene(source, choices, report);
+                                           const ProgressReport& report,
+                                           uint64_t memory_bytes) const {
+    auto loaded = loadScene(source, choices, report, memory_bytes);
     if (!loaded) {
         return loaded.error();
     }

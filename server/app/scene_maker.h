@@ -7,6 +7,7 @@
 #include "gpu/device.h"
 #include "stream/scene_host.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -18,10 +19,11 @@ class SceneMaker {
     // none.
     SceneMaker(const ServeOptions& options, const gpu::DeviceTraits& device);
 
-    // `source`, `report` and errors as for loadScene(). Any thread; takes long.
+    // As loadScene(). Any thread; takes long.
     [[nodiscard]] Result<stream::ReadScene> make(const std::string& source,
                                                  const SceneChoices& choices,
-                                                 const ProgressReport& report) const;
+                                                 const ProgressReport& report,
+                                                 uint64_t memory_bytes) const;
 
   private:
     [[nodiscard]] session::SessionDefaults defaultsOf(const std::string& source,

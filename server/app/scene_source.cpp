@@ -79,9 +79,11 @@ Result<void> chooseMaterialVariant(const std::string& wanted, scene::Scene& scen
 
 } // namespace
 
-Result<scene::Scene>
-loadScene(const std::string& source, const SceneChoices& choices, const ProgressReport& report) {
-    auto scene = source == kBuiltin ? makeHall(report) : gltf::load(source, report);
+Result<scene::Scene> loadScene(const std::string& source,
+                               const SceneChoices& choices,
+                               const ProgressReport& report,
+                               uint64_t memory_bytes) {
+    auto scene = source == kBuiltin ? makeHall(report) : gltf::load(source, report, {memory_bytes});
     if (!scene) {
         return scene;
     }

@@ -68,7 +68,8 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
     const auto reading = [&](const Progress& progress) {
         return report({progress.stage, 0.1 + 0.5 * progress.fraction});
     };
-    stream::ReadScene first = maker->make(options.scene, options.choices, reading).value();
+    stream::ReadScene first =
+        maker->make(options.scene, options.choices, reading, readMemoryBytes()).value();
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(first.context.scene.name), first.context.scene.triangle_count,
                  first.context.scene.draw_count, first.context.scene.cameras.size());
@@ -83,14 +84,16 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
                                              Seconds(options.frame_limit_s), limits);
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
-    return {std::move(source),
-            std::move(first.context),
-            std::move(memory),
-            Seconds(limit_s),
-            [maker](const catalogue::Offered& offered, const ProgressReport& report_on) {
-                return maker->make(offered.source, {}, report_on);
-            },
-            sceneMemoryBytes(options.memory, limits)};
+    const uint64_t scene_bytes = sceneMemoryBytes(options.memory, limits);
+    return {
+        std::move(source),
+        std::move(first.context),
+        std::move(memory),
+        Seconds(limit_s),
+        [maker, scene_bytes](const catalogue::Offered& offered, const ProgressReport& report_on) {
+            return maker->make(offered.source, {}, report_on, readMemoryBytes(scene_bytes));
+        },
+        scene_bytes};
 }
 
 fs::path webRootOf(const ServeOptions& options) {

@@ -61,6 +61,9 @@ struct Source {
     }
 };
 
+// More than the best of the formats' compressions gives of one grey channel.
+constexpr uint64_t kPixelsOfByte = 8192;
+
 // Sizes in the header are allocated before they are held against the file's.
 constexpr size_t kMaxHeaderBytes = size_t{1} << 20U;
 void* allocate(size_t bytes) {
@@ -262,6 +265,12 @@ Result<Panorama> readExr(std::span<const std::byte> file) {
     Panorama out;
     out.image.width_px = static_cast<uint32_t>(max.x - min.x + 1);
     out.image.height_px = static_cast<uint32_t>(max.y - min.y + 1);
+    const uint64_t pixels = uint64_t{out.image.width_px} * out.image.height_px;
+    if (pixels > file.size() * kPixelsOfByte) {
+        return broken("its " + numberText(file.size()) + " bytes cannot hold the " +
+                      numberText(out.image.width_px) + "x" + numberText(out.image.height_px) +
+                      " pixels that its header tells");
+    }
     out.image.rgb.resize(size_t{out.image.width_px} * out.image.height_px * kChannels);
     try {
         readPixels(file, header, out.image);

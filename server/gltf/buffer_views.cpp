@@ -4,9 +4,12 @@
 
 namespace froxel::gltf {
 
-BufferViews::BufferViews(const Document& document, SceneFolder& folder, LoadProgress& progress)
-    : document_(document), folder_(folder), progress_(progress), buffers_(document.buffers.size()) {
-}
+BufferViews::BufferViews(const Document& document,
+                         SceneFolder& folder,
+                         LoadProgress& progress,
+                         ReadMemory& memory)
+    : document_(document), folder_(folder), progress_(progress), buffers_(document.buffers.size()),
+      decoded_bytes_("bytes of decompressed buffer views", kMaxDecodedViewBytes, 1, memory) {}
 
 std::span<const std::byte> BufferViews::bufferBytes(size_t buffer) {
     const BufferSource& source = document_.buffers[buffer];
@@ -57,9 +60,10 @@ std::span<const std::byte> BufferViews::bytes(int view, const std::string& user)
     if (known != decoded_views_.end()) {
         return known->second;
     }
-    decoded_bytes_.take(compressed->decodedBytes(), name);
     const auto encoded =
         range(compressed->buffer, compressed->offset_bytes, compressed->size_bytes, name);
+    checkRatio(*compressed, name);
+    decoded_bytes_.take(compressed->decodedBytes(), name);
     return decoded_views_.emplace(index, decodeMeshopt(*compressed, encoded, name)).first->second;
 }
 

@@ -18,7 +18,10 @@ namespace froxel::gltf {
 // Not thread-safe. Spans live as long as this does.
 class BufferViews {
   public:
-    BufferViews(const Document& document, SceneFolder& folder, LoadProgress& progress);
+    BufferViews(const Document& document,
+                SceneFolder& folder,
+                LoadProgress& progress,
+                ReadMemory& memory);
 
     // The whole view, checked to lie inside its buffer. Throws Failure, naming `user`;
     // CalledOff, since all that is long to read begins here.
@@ -37,7 +40,7 @@ class BufferViews {
     LoadProgress& progress_;
     std::vector<std::optional<Bytes>> buffers_; // what came from a file or a data: URI
     std::map<size_t, Bytes> decoded_views_;
-    Budget decoded_bytes_{"bytes of decompressed buffer views", kMaxDecodedViewBytes};
+    Budget decoded_bytes_;
 };
 
 } // namespace froxel::gltf

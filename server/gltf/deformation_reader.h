@@ -19,8 +19,11 @@ using MorphTarget = std::map<std::string, int>; // semantic to accessor
 // Not thread-safe. Throws Failure, naming `user`.
 class DeformationReader {
   public:
-    DeformationReader(AccessorReader& accessors, Warnings& warnings)
-        : accessors_(accessors), warnings_(warnings) {}
+    DeformationReader(AccessorReader& accessors, ReadMemory& memory, Warnings& warnings)
+        : accessors_(accessors), warnings_(warnings),
+          influences_("influences of joints", kMaxInfluences, kInfluenceBytes, memory),
+          morphed_vertices_("vertices of morph targets", kMaxVertices, sizeof(glm::vec3), memory),
+          deltas_("moved vertices of morph targets", kMaxMorphDeltas, kMorphDeltaBytes, memory) {}
 
     // All sets of JOINTS_n and WEIGHTS_n. Weights are made to sum to 1, those that are not finite
     // are none; a vertex without any follows joint 0. `pointer` is the primitive's.
@@ -54,9 +57,9 @@ class DeformationReader {
 
     AccessorReader& accessors_;
     Warnings& warnings_;
-    Budget influences_{"influences of joints", kMaxInfluences};
-    Budget morphed_vertices_{"vertices of morph targets", kMaxVertices};
-    Budget deltas_{"moved vertices of morph targets", kMaxMorphDeltas};
+    Budget influences_;
+    Budget morphed_vertices_;
+    Budget deltas_;
 };
 
 } // namespace froxel::gltf

@@ -1,6 +1,7 @@
 #include "gltf/document.h"
 
 #include "core/text.h"
+#include "core/unwind_reserve.h"
 #include "gltf/glb_container.h"
 #include "gltf/json_check.h"
 
@@ -159,7 +160,11 @@ void takeLights(Json& root, Document& document) {
 // tinygltf would drop those without a name, and so renumber the others.
 void takeMaterialVariants(Json& root, Document& document, Warnings& warnings) {
     const std::string place = "/extensions/KHR_materials_variants/variants";
-    for (const Json& variant : takeExtensionArray(root, "KHR_materials_variants", "variants")) {
+    const Json variants = takeExtensionArray(root, "KHR_materials_variants", "variants");
+    const size_t count = std::min(variants.size(), kMaxChoices);
+    tellTooMany("material variants", variants.size() - count, warnings);
+    for (size_t i = 0; i < count; ++i) {
+        const Json& variant = variants[i];
         auto& names = document.material_variants;
         if (!variant.is_object()) {
             warnings.add(warning::kType, place,
@@ -209,9 +214,22 @@ std::string firstLine(const std::string& text) {
     return printable(text.substr(0, text.find('\n')), 300);
 }
 
+// That of the arrays' elements, as tinygltf will keep them.
+void takeMemory(const Json& root, ReadMemory& memory) {
+    for (const auto& [key, value] : root.items()) {
+        const uint64_t each = key == "materials" ? kMaterialBytes : kElementBytes;
+        memory.take(value.is_array() ? value.size() * each : 0, "/" + printable(key));
+    }
+    if (const auto meshes = root.find("meshes"); meshes != root.end()) {
+        for (const Json& mesh : *meshes) {
+            memory.take(mesh.at("primitives").size() * kPrimitiveBytes, "/meshes");
+        }
+    }
+}
+
 } // namespace
 
-Document readDocument(SceneFolder& folder, Warnings& warnings) {
+Document readDocument(SceneFolder& folder, ReadMemory& memory, Warnings& warnings) {
     Document document;
     document.file = folder.readSceneFile();
     std::span<const std::byte> text = document.file;
@@ -221,8 +239,13 @@ Document readDocument(SceneFolder& folder, Warnings& warnings) {
         document.binary_chunk = chunks.binary;
     }
     checkByteOrderMark(text, warnings); // the parser skips it
-    Json root = parseJson(text);
+    const size_t value_count = countValues(text, memory);
+    Json root;
+    // What follows frees it first, and then the tree, whose destructor lists all of its values.
+    const UnwindReserve reserve(value_count * 3 * sizeof(Json));
+    root = parseJson(text);
     checkJson(root, warnings);
+    takeMemory(root, memory);
     takeBuffers(root, document);
     takeImages(root, document);
     takeStrides(root, document, warnings);

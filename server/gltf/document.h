@@ -86,7 +86,7 @@ struct Document {
     std::span<const std::byte> binary_chunk; // in `file`
 };
 
-// Throws Failure.
-[[nodiscard]] Document readDocument(SceneFolder& folder, Warnings& warnings);
+// Throws Failure, also where `memory` is not enough; std::bad_alloc.
+[[nodiscard]] Document readDocument(SceneFolder& folder, ReadMemory& memory, Warnings& warnings);
 
 } // namespace froxel::gltf

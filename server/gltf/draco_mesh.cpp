@@ -2,6 +2,7 @@
 
 #include "core/text.h"
 #include "gltf/failure.h"
+#include "gltf/limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +92,10 @@ DracoMesh::DracoMesh(std::span<const std::byte> stream,
              std::to_string(counts.faces) + " triangles; its accessors say " +
              std::to_string(expected_.vertex_count) + " and " +
              std::to_string(expected_.index_count / 3));
+    }
+    if (counts.faces > stream.size() * kDracoFacesOfByte) {
+        fail(user + " has a Draco stream of " + std::to_string(stream.size()) +
+             " bytes that says it has " + std::to_string(counts.faces) + " triangles");
     }
     draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);

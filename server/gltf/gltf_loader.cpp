@@ -20,14 +20,16 @@ Error sceneError(const std::filesystem::path& file, const std::string& message) 
 
 } // namespace
 
-Result<scene::Scene> load(const std::filesystem::path& file, const ProgressReport& report) {
+Result<scene::Scene>
+load(const std::filesystem::path& file, const ProgressReport& report, const LoadLimits& limits) {
     try {
         Warnings warnings;
         LoadProgress progress(report);
+        ReadMemory memory(limits.memory_bytes);
         progress.reading(0);
-        SceneFolder folder(file, progress);
-        const Document document = readDocument(folder, warnings);
-        scene::Scene scene = buildScene(document, folder, progress, warnings);
+        SceneFolder folder(file, progress, memory);
+        const Document document = readDocument(folder, memory, warnings);
+        scene::Scene scene = buildScene(document, folder, progress, memory, warnings);
         scene.name = file.stem().string();
         scene.file_bytes = folder.fileBytes();
         warnings.moveInto(scene);

@@ -67,6 +67,13 @@ jpegSize(const Decompressor& decoder, std::span<const std::byte> file, const std
     if (width < 1 || height < 1) { // what the library says of a file that ends too soon
         failBroken(user, "JPEG", "its header is cut off");
     }
+    // A block of 64 pixels takes a bit at least.
+    constexpr uint64_t kPixelsOfByte = 512;
+    if (uint64_t(width) * uint64_t(height) > file.size() * kPixelsOfByte) {
+        failBroken(user, "JPEG",
+                   std::to_string(file.size()) + " bytes cannot hold the " + std::to_string(width) +
+                       "x" + std::to_string(height) + " pixels that its header tells");
+    }
     if (colorspace == TJCS_CMYK || colorspace == TJCS_YCCK) {
         throw Unusable(warning::kImageFormat, user + " is a CMYK JPEG; right is RGB or grey");
     }

@@ -175,9 +175,10 @@ void loadImages(const Document& document,
                 SceneFolder& folder,
                 BufferViews& views,
                 LoadProgress& progress,
+                ReadMemory& memory,
                 scene::Scene& scene,
                 Warnings& warnings) {
-    Budget pixels("bytes of decoded images", kMaxDecodedImageBytes);
+    Budget pixels("bytes of decoded images", kMaxDecodedImageBytes, 1, memory);
     std::vector<Job> jobs(sources.size());
     std::vector<Job*> due;
     for (size_t i = 0; i < jobs.size(); ++i) {

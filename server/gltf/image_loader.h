@@ -24,6 +24,7 @@ void loadImages(const Document& document,
                 SceneFolder& folder,
                 BufferViews& views,
                 LoadProgress& progress,
+                ReadMemory& memory,
                 scene::Scene& scene,
                 Warnings& warnings);
 

@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace froxel::gltf {
 namespace {
@@ -199,6 +200,42 @@ void checkArrays(const Json& root) {
     }
 }
 
+// Counts while nothing is kept. Its functions tell the parser to go on.
+class ValueCounter final : public nlohmann::json_sax<Json> {
+  public:
+    explicit ValueCounter(ReadMemory& memory) : memory_(memory) {}
+
+    [[nodiscard]] size_t count() const { return count_; }
+
+    bool null() override { return add(1); }
+    bool boolean(bool /*value*/) override { return add(1); }
+    bool number_integer(int64_t /*value*/) override { return add(1); }
+    bool number_unsigned(uint64_t /*value*/) override { return add(1); }
+    bool number_float(double /*value*/, const std::string& /*text*/) override { return add(1); }
+    bool string(std::string& /*value*/) override { return add(1); }
+    bool binary(binary_t& /*value*/) override { return add(1); }
+    bool start_object(size_t /*size*/) override { return add(2); }
+    bool key(std::string& /*value*/) override { return add(1); }
+    bool end_object() override { return true; }
+    bool start_array(size_t /*size*/) override { return add(1); }
+    bool end_array() override { return true; }
+    bool parse_error(size_t /*position*/,
+                     const std::string& /*last_token*/,
+                     const nlohmann::detail::exception& /*error*/) override {
+        return false;
+    }
+
+  private:
+    bool add(size_t count) {
+        memory_.take(count * kJsonValueBytes, "the JSON text");
+        count_ += count;
+        return true;
+    }
+
+    ReadMemory& memory_;
+    size_t count_ = 0;
+};
+
 } // namespace
 
 bool isSupportedExtension(std::string_view name) {
@@ -207,11 +244,19 @@ bool isSupportedExtension(std::string_view name) {
                                [&](const MaterialExtension& row) { return row.name == name; });
 }
 
-Json parseJson(std::span<const std::byte> text) {
+size_t countValues(std::span<const std::byte> text, ReadMemory& memory) {
     if (text.size() > kMaxJsonBytes) {
         fail("the JSON text has " + std::to_string(text.size()) + " bytes; at most " +
              std::to_string(kMaxJsonBytes) + " are supported");
     }
+    memory.take(2 * text.size(), "the JSON text"); // its strings, and what tinygltf gets
+    ValueCounter counter(memory);
+    const auto* first = reinterpret_cast<const char*>(text.data());
+    Json::sax_parse(first, first + text.size(), &counter); // parseJson() says what is wrong
+    return counter.count();
+}
+
+Json parseJson(std::span<const std::byte> text) {
     const auto* first = reinterpret_cast<const char*>(text.data());
     try {
         Json root = Json::parse(first, first + text.size());

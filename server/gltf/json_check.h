@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gltf/failure.h"
+#include "gltf/limits.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -14,7 +15,11 @@ namespace froxel::gltf {
 
 [[nodiscard]] bool isSupportedExtension(std::string_view name);
 
-// Throws Failure where the text is not a JSON object or is longer than kMaxJsonBytes. It may nest
+// How many values the text has, as far as it is JSON. Throws Failure where it is longer than
+// kMaxJsonBytes or has more values than `memory` is enough for, which it takes.
+[[nodiscard]] size_t countValues(std::span<const std::byte> text, ReadMemory& memory);
+
+// Throws Failure where the text is not a JSON object. It may nest
 // to any depth; neither reading nor destroying it recurses.
 [[nodiscard]] nlohmann::json parseJson(std::span<const std::byte> text);
 

@@ -345,12 +345,32 @@ class Types {
         if (!fits(value, rule) && !brought(name, value, rule)) {
             return false;
         }
+        if (name == "name" && value.is_string()) {
+            shorten(value.get_ref<std::string&>());
+        }
         const bool narrowed =
             (rule.kinds & kBytes) != 0 && path_.find("/extensions/") != std::string::npos;
         if ((rule.kinds & (kNumber | kNumbers)) != 0 || narrowed) {
             makeReal(value);
         }
         return true;
+    }
+
+    // Parsed text is UTF-8: it is cut between two characters.
+    void shorten(std::string& name) {
+        if (name.size() <= kMaxNameBytes) {
+            return;
+        }
+        const size_t told = name.size();
+        size_t end = kMaxNameBytes;
+        while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) {
+            --end;
+        }
+        name.resize(end);
+        name.shrink_to_fit();
+        warnings_.add(warning::kNameLength, path_,
+                      path_ + " has " + std::to_string(told) + " bytes; the first " +
+                          std::to_string(end) + " are kept");
     }
 
     // Whether it could be brought to the right type.

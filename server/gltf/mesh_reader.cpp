@@ -108,9 +108,14 @@ MeshReader::MeshReader(const Document& document,
                        AccessorReader& accessors,
                        MaterialReader& materials,
                        scene::Scene& scene,
+                       ReadMemory& memory,
                        Warnings& warnings)
     : document_(document), views_(views), accessors_(accessors), materials_(materials),
-      scene_(scene), warnings_(warnings), deformations_(accessors, warnings) {}
+      scene_(scene), warnings_(warnings), target_counts_(document.model.meshes.size()),
+      primitives_("primitives", kMaxPrimitives, kPrimitiveBytes, memory),
+      vertices_("vertices", kMaxVertices, kVertexBytes, memory),
+      indices_("indices", kMaxIndices, kIndexBytes, memory),
+      deformations_(accessors, memory, warnings) {}
 
 uint32_t MeshReader::mesh(int index, const std::vector<double>& weights, const std::string& user) {
     const size_t number = checkedIndex(index, document_.model.meshes.size(), "mesh", user);
@@ -144,18 +149,22 @@ uint32_t MeshReader::deformingMesh(int index,
     return add(number, {weights, motion, &out});
 }
 
-size_t MeshReader::targetCount(int index, const std::string& user) const {
+size_t MeshReader::targetCount(int index, const std::string& user) {
     const auto& meshes = document_.model.meshes;
-    size_t count = 0;
-    for (const auto& primitive :
-         meshes[checkedIndex(index, meshes.size(), "mesh", user)].primitives) {
-        count = std::max(count, primitive.targets.size());
+    const size_t mesh = checkedIndex(index, meshes.size(), "mesh", user);
+    std::optional<size_t>& count = target_counts_[mesh];
+    if (!count) {
+        count = 0;
+        for (const auto& primitive : meshes[mesh].primitives) {
+            count = std::max(*count, primitive.targets.size());
+        }
     }
-    return count;
+    return *count;
 }
 
 uint32_t MeshReader::add(size_t index, const Use& use) {
     const tinygltf::Mesh& source = document_.model.meshes[index];
+    primitives_.take(source.primitives.size(), thing("mesh", index));
     scene::Mesh mesh;
     mesh.name = source.name;
     for (size_t i = 0; i < source.primitives.size(); ++i) {
@@ -361,6 +370,7 @@ void MeshReader::finishNormals(bool has_normals,
                                const std::string& pointer,
                                const std::string& user) {
     if (!has_normals) {
+        vertices_.take(primitive.indices.size(), user);
         makeFlat(primitive);
         return;
     }

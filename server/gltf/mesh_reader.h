@@ -37,6 +37,7 @@ class MeshReader {
                AccessorReader& accessors,
                MaterialReader& materials,
                scene::Scene& scene,
+               ReadMemory& memory,
                Warnings& warnings);
 
     // The scene's index of a mesh of the file with its morph targets at `weights`; kNone where
@@ -50,7 +51,7 @@ class MeshReader {
                                          std::vector<scene::Deformation>& out,
                                          const std::string& user);
     // Of any of the mesh's primitives.
-    [[nodiscard]] size_t targetCount(int index, const std::string& user) const;
+    [[nodiscard]] size_t targetCount(int index, const std::string& user);
 
     // One warning for all points and lines of the meshes that were read.
     void tellUndrawn();
@@ -104,9 +105,11 @@ class MeshReader {
     scene::Scene& scene_;
     Warnings& warnings_;
     std::map<std::pair<int, std::vector<double>>, uint32_t> known_;
-    std::set<std::pair<size_t, size_t>> undrawn_; // points and lines: mesh, primitive
-    Budget vertices_{"vertices", kMaxVertices};
-    Budget indices_{"indices", kMaxIndices};
+    std::set<std::pair<size_t, size_t>> undrawn_;      // points and lines: mesh, primitive
+    std::vector<std::optional<size_t>> target_counts_; // of each mesh of the file
+    Budget primitives_;
+    Budget vertices_;
+    Budget indices_;
     DeformationReader deformations_;
 };
 

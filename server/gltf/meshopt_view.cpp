@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "gltf/extension_value.h"
 #include "gltf/failure.h"
+#include "gltf/limits.h"
 
 #include <tiny_gltf.h>
 
@@ -110,6 +111,17 @@ std::optional<MeshoptView> meshoptView(const tinygltf::BufferView& view, const s
         fail(name + " has a meshopt filter on indices; right is NONE");
     }
     return result;
+}
+
+void checkRatio(const MeshoptView& view, const std::string& name) {
+    const uint64_t ratio = view.mode == MeshoptMode::kAttributes  ? kMeshoptVertexRatio
+                           : view.mode == MeshoptMode::kTriangles ? kMeshoptTriangleRatio
+                                                                  : kMeshoptIndexRatio;
+    if (view.decodedBytes() > view.size_bytes * ratio) {
+        fail(name + " says " + std::to_string(view.size_bytes) + " bytes of meshopt data hold " +
+             std::to_string(view.decodedBytes()) + "; they can hold at most " +
+             std::to_string(view.size_bytes * ratio));
+    }
 }
 
 Bytes decodeMeshopt(const MeshoptView& view,

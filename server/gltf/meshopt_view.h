@@ -36,6 +36,9 @@ struct MeshoptView {
 [[nodiscard]] std::optional<MeshoptView> meshoptView(const tinygltf::BufferView& view,
                                                      const std::string& name);
 
+// Throws Failure where so few compressed bytes cannot hold what the view says.
+void checkRatio(const MeshoptView& view, const std::string& name);
+
 // Throws Failure where the stream is not valid. Decoded indices may still be out of range.
 [[nodiscard]] Bytes
 decodeMeshopt(const MeshoptView& view, std::span<const std::byte> encoded, const std::string& name);

@@ -67,18 +67,22 @@ MotionReader::MotionReader(const Document& document,
                            const std::vector<PlacedNode>& placed,
                            std::vector<size_t> weight_counts,
                            AccessorReader& accessors,
+                           ReadMemory& memory,
                            Warnings& warnings)
     : document_(document), placed_(placed), weight_counts_(std::move(weight_counts)),
       accessors_(accessors), warnings_(warnings),
       place_of_node_(document.model.nodes.size(), kNone), skins_(document.skins.size()),
       skins_tried_(document.skins.size()), moves_(placed.size()), morphs_(placed.size()),
-      needed_(placed.size()), weights_(placed.size()) {
+      needed_(placed.size()), weights_(placed.size()),
+      numbers_("numbers of animations", kMaxKeyNumbers, kKeyNumberBytes, memory) {
     for (uint32_t place = 0; place < placed.size(); ++place) {
         place_of_node_[placed[place].node] = place;
     }
-    for (size_t clip = 0; clip < document.clips.size(); ++clip) {
+    const size_t clip_count = std::min(document.clips.size(), kMaxChoices);
+    for (size_t clip = 0; clip < clip_count; ++clip) {
         readClip(clip);
     }
+    tellTooMany("animations", document.clips.size() - clip_count, warnings);
     noteMoved();
 }
 

@@ -27,6 +27,7 @@ class MotionReader {
                  const std::vector<PlacedNode>& placed,
                  std::vector<size_t> weight_counts,
                  AccessorReader& accessors,
+                 ReadMemory& memory,
                  Warnings& warnings);
 
     // Whether a clip moves the node or one that it hangs on.
@@ -84,7 +85,7 @@ class MotionReader {
     std::vector<bool> morphs_;
     std::vector<bool> needed_;
     std::vector<std::pair<uint32_t, uint32_t>> weights_; // of each place: the first, how many
-    Budget numbers_{"numbers of animations", kMaxKeyNumbers};
+    Budget numbers_;
 };
 
 } // namespace froxel::gltf

@@ -18,6 +18,8 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -33,35 +35,36 @@ BoundsD3 meshBounds(const scene::Mesh& mesh) {
 }
 
 // Cameras are chosen by name, so every one gets a name of its own.
-void nameCamera(scene::NamedCamera& camera,
-                const std::string& node_name,
-                const std::vector<scene::NamedCamera>& others) {
-    if (camera.name.empty()) {
-        camera.name = node_name.empty() ? "camera" + std::to_string(others.size()) : node_name;
+class CameraNames {
+  public:
+    // `wanted`, or that with the first number from 2 on that nobody has.
+    std::string takeLike(const std::string& wanted) {
+        std::string name = wanted;
+        size_t& number = next_numbers_.try_emplace(wanted, 2).first->second;
+        while (!taken_.insert(name).second) {
+            name = wanted + "-" + std::to_string(number++);
+        }
+        return name;
     }
-    const std::string wanted = camera.name;
-    const auto taken = [&] {
-        return std::any_of(others.begin(), others.end(), [&](const scene::NamedCamera& other) {
-            return other.name == camera.name;
-        });
-    };
-    for (size_t i = 2; taken(); ++i) {
-        camera.name = wanted + "-" + std::to_string(i);
-    }
-}
+
+  private:
+    std::unordered_set<std::string> taken_;
+    std::unordered_map<std::string, size_t> next_numbers_; // by what was wanted
+};
 
 class Builder {
   public:
     Builder(const Document& document,
             SceneFolder& folder,
             LoadProgress& progress,
+            ReadMemory& memory,
             Warnings& warnings)
-        : document_(document), progress_(progress), warnings_(warnings),
-          views_(document, folder, progress), accessors_(document, views_),
+        : document_(document), progress_(progress), memory_(memory), warnings_(warnings),
+          views_(document, folder, progress, memory), accessors_(document, views_),
           materials_(document, scene_, warnings),
-          meshes_(document, views_, accessors_, materials_, scene_, warnings),
+          meshes_(document, views_, accessors_, materials_, scene_, memory, warnings),
           placed_(placeNodes(document.model, warnings)),
-          motion_(document, placed_, weightCounts(), accessors_, warnings) {}
+          motion_(document, placed_, weightCounts(), accessors_, memory, warnings) {}
 
     scene::Scene build(SceneFolder& folder) {
         scene_.material_variants = document_.material_variants;
@@ -74,6 +77,7 @@ class Builder {
             addCamera(place);
         }
         meshes_.tellUndrawn();
+        tellTooMany("cameras", cameras_left_out_, warnings_);
         if (scene_.instances.empty()) {
             warnings_.add(warning::kNothingDrawn, "",
                           "nothing is drawn: no node of the scene places a mesh of triangles");
@@ -89,7 +93,8 @@ class Builder {
         if (scene_.motion) {
             scene_.bounds_world = motion::boundsOverClips(scene_);
         }
-        loadImages(document_, materials_.images(), folder, views_, progress_, scene_, warnings_);
+        loadImages(document_, materials_.images(), folder, views_, progress_, memory_, scene_,
+                   warnings_);
         return std::move(scene_);
     }
 
@@ -105,17 +110,19 @@ class Builder {
     }
 
     // Morph targets of what each placed node shows.
-    [[nodiscard]] std::vector<size_t> weightCounts() const {
+    [[nodiscard]] std::vector<size_t> weightCounts() {
+        Budget weights("weights of morph targets", kMaxMorphWeights, sizeof(double), memory_);
         std::vector<size_t> counts;
         for (size_t place = 0; place < placed_.size(); ++place) {
             const int mesh = nodeAt(place).mesh;
             counts.push_back(mesh < 0 ? 0 : meshes_.targetCount(mesh, nameOf(place)));
+            weights.take(counts.back(), nameOf(place));
         }
         return counts;
     }
 
     // One for each target: the node's own win over the mesh's.
-    [[nodiscard]] std::vector<double> weightsOf(const tinygltf::Node& node) const {
+    [[nodiscard]] std::vector<double> weightsOf(const tinygltf::Node& node) {
         const auto& mesh = document_.model.meshes[static_cast<size_t>(node.mesh)];
         std::vector<double> weights = node.weights.empty() ? mesh.weights : node.weights;
         weights.resize(meshes_.targetCount(node.mesh, ""));
@@ -129,6 +136,9 @@ class Builder {
         }
         const std::string name = nameOf(place);
         const std::optional<uint32_t> skin = motion_.skin(place);
+        if (skin) {
+            posed_joints_.take(motion_.jointCount(*skin), name);
+        }
         const std::vector<double> weights = weightsOf(node);
         if (!skin && !motion_.morphs(place)) {
             const uint32_t mesh = meshes_.mesh(node.mesh, weights, name);
@@ -166,6 +176,7 @@ class Builder {
                           nameOf(place) + " has a skin and instances; the skin places it once");
         }
         instances_.take(1, nameOf(place));
+        placed_primitives_.take(scene_.meshes[mesh].primitives.size(), nameOf(place));
         motion_.addInstance(
             {static_cast<uint32_t>(scene_.instances.size()), place, glm::dmat4(1), deformed});
         scene_.instances.push_back({mesh, placed_[place].world_from_node, node.name});
@@ -182,6 +193,7 @@ class Builder {
             if (!moves && glm::dmat3(world) == glm::dmat3(0)) {
                 continue; // a point: nothing to see
             }
+            placed_primitives_.take(scene_.meshes[mesh].primitives.size(), nameOf(place));
             if (moves) {
                 motion_.addInstance({static_cast<uint32_t>(scene_.instances.size()), place,
                                      node_from_object, scene::kNone});
@@ -204,18 +216,20 @@ class Builder {
     }
 
     // Of what moves, which may have a scale of 0 for a while, as if that were 1.
-    [[nodiscard]] NodeAxes axesAt(uint32_t place) const {
+    [[nodiscard]] NodeAxes axesAt(uint32_t place) {
         const NodeAxes axes = motion::axesOf(placed_[place].world_from_node);
         if (axes || !motion_.moves(place)) {
             return axes;
         }
-        glm::dmat4 world_from_node(1);
-        for (std::optional<size_t> at = place; at; at = placed_[*at].parent) {
-            scene::Transform parts = nodeParts(nodeAt(*at));
+        while (unscaled_.size() <= place) { // parents come before their children
+            const size_t at = unscaled_.size();
+            const auto& parent = placed_[at].parent;
+            scene::Transform parts = nodeParts(nodeAt(at));
             parts.scale = glm::dvec3(1);
-            world_from_node = scene::matrixOf(parts) * world_from_node;
+            unscaled_.push_back((parent ? unscaled_[*parent] : glm::dmat4(1)) *
+                                scene::matrixOf(parts));
         }
-        return motion::axesOf(world_from_node);
+        return motion::axesOf(unscaled_[place]);
     }
 
     void addCamera(uint32_t place) {
@@ -231,7 +245,14 @@ class Builder {
         if (!camera) {
             return;
         }
-        nameCamera(*camera, node.name, scene_.cameras);
+        if (scene_.cameras.size() == kMaxChoices) {
+            ++cameras_left_out_;
+            return;
+        }
+        const std::string number = std::to_string(scene_.cameras.size());
+        camera->name = camera_names_.takeLike(!camera->name.empty() ? camera->name
+                                              : !node.name.empty()  ? node.name
+                                                                    : "camera" + number);
         if (motion_.moves(place)) {
             motion_.addCamera({static_cast<uint32_t>(scene_.cameras.size()), place});
         }
@@ -264,6 +285,7 @@ class Builder {
 
     const Document& document_;
     LoadProgress& progress_;
+    ReadMemory& memory_;
     Warnings& warnings_;
     scene::Scene scene_;
     BufferViews views_;
@@ -272,7 +294,13 @@ class Builder {
     MeshReader meshes_;
     std::vector<PlacedNode> placed_;
     MotionReader motion_;
-    Budget instances_{"instances", kMaxInstances};
+    std::vector<glm::dmat4> unscaled_; // of the first places: axesAt()
+    CameraNames camera_names_;
+    size_t cameras_left_out_ = 0;
+    Budget instances_{"instances", kMaxInstances, kInstanceBytes, memory_};
+    Budget placed_primitives_{"placed primitives", kMaxPlacedPrimitives, 0, memory_};
+    Budget posed_joints_{"joints of meshes with a skin", kMaxPosedJoints, kPosedJointBytes,
+                         memory_};
 };
 
 } // namespace
@@ -280,8 +308,9 @@ class Builder {
 scene::Scene buildScene(const Document& document,
                         SceneFolder& folder,
                         LoadProgress& progress,
+                        ReadMemory& memory,
                         Warnings& warnings) {
-    return Builder(document, folder, progress, warnings).build(folder);
+    return Builder(document, folder, progress, memory, warnings).build(folder);
 }
 
 } // namespace froxel::gltf

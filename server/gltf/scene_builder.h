@@ -12,6 +12,7 @@ namespace froxel::gltf {
 [[nodiscard]] scene::Scene buildScene(const Document& document,
                                       SceneFolder& folder,
                                       LoadProgress& progress,
+                                      ReadMemory& memory,
                                       Warnings& warnings);
 
 } // namespace froxel::gltf

@@ -159,8 +159,9 @@ fs::path relativePathFromUri(const std::string& uri, const std::string& user) {
     return path;
 }
 
-SceneFolder::SceneFolder(const fs::path& scene_file, LoadProgress& progress)
-    : scene_file_(scene_file), progress_(progress) {
+SceneFolder::SceneFolder(const fs::path& scene_file, LoadProgress& progress, ReadMemory& memory)
+    : scene_file_(scene_file), progress_(progress),
+      bytes_("bytes of files", kMaxFileBytes, 1, memory) {
     std::error_code error;
     const fs::path parent = scene_file.has_parent_path() ? scene_file.parent_path() : ".";
     folder_ = fs::canonical(parent, error);

@@ -21,7 +21,9 @@ using Bytes = std::vector<std::byte>;
 
 class SceneFolder {
   public:
-    SceneFolder(const std::filesystem::path& scene_file, LoadProgress& progress);
+    SceneFolder(const std::filesystem::path& scene_file,
+                LoadProgress& progress,
+                ReadMemory& memory);
 
     // The scene file itself. Throws Failure, as all here; CalledOff.
     [[nodiscard]] Bytes readSceneFile();
@@ -40,7 +42,7 @@ class SceneFolder {
     std::filesystem::path scene_file_;
     std::filesystem::path folder_; // canonical
     LoadProgress& progress_;
-    Budget bytes_{"bytes of files", kMaxFileBytes};
+    Budget bytes_;
     uint64_t file_bytes_ = 0;
 };
 

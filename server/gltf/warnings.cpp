@@ -1,13 +1,14 @@
 #include "gltf/warnings.h"
 
+#include "gltf/limits.h"
+
 #include <algorithm>
 #include <utility>
 
 namespace froxel::gltf {
 
 void Warnings::add(const WarningKind& kind, std::string pointer, std::string message) {
-    scene::Warning warning{kind.code, kind.severity, std::move(pointer), std::move(message)};
-    if (std::find(kept_.begin(), kept_.end(), warning) != kept_.end()) {
+    if (known_.contains({pointer, message})) {
         return;
     }
     size_t& count = kept_of_kind_[{kind.code, kind.severity}];
@@ -16,7 +17,17 @@ void Warnings::add(const WarningKind& kind, std::string pointer, std::string mes
         return;
     }
     ++count;
-    kept_.push_back(std::move(warning));
+    known_.emplace(pointer, message);
+    kept_.push_back({kind.code, kind.severity, std::move(pointer), std::move(message)});
+}
+
+void tellTooMany(const std::string& things, size_t left_out, Warnings& warnings) {
+    if (left_out > 0) {
+        warnings.add(warning::kTooMany, "",
+                     "the file has " + std::to_string(kMaxChoices + left_out) + " " + things +
+                         "; the first " + std::to_string(kMaxChoices) +
+                         " are read, since all can be chosen by name");
+    }
 }
 
 void Warnings::moveInto(scene::Scene& scene) {

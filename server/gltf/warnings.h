@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,6 +28,8 @@ inline constexpr auto kWarning = scene::Severity::kWarning;
 inline constexpr auto kInformation = scene::Severity::kInformation;
 
 // The file as a whole.
+inline constexpr WarningKind kNameLength{"NAME_TOO_LONG", kInformation};
+inline constexpr WarningKind kTooMany{"TOO_MANY_TO_CHOOSE", kWarning};
 inline constexpr WarningKind kUnsupportedExtension{"UNSUPPORTED_EXTENSION", kWarning, 100};
 inline constexpr WarningKind kUnsupportedMetadata{"UNSUPPORTED_EXTENSION", kInformation};
 inline constexpr WarningKind kType{"TYPE_MISMATCH", kWarning};
@@ -104,9 +107,13 @@ class Warnings {
 
   private:
     std::vector<scene::Warning> kept_;
+    std::set<std::pair<std::string, std::string>> known_; // place and words of what is kept
     std::map<std::pair<std::string_view, scene::Severity>, size_t> kept_of_kind_;
     uint64_t left_out_count_ = 0;
 };
+
+// That so many of what people choose by name were left out; nothing where none was.
+void tellTooMany(const std::string& things, size_t left_out, Warnings& warnings);
 
 // "/meshes/3": what pointers to elements of the file's arrays begin with.
 [[nodiscard]] inline std::string pointerTo(const char* array, size_t index) {

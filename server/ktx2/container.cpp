@@ -12,6 +12,10 @@
 namespace froxel::ktx2 {
 namespace {
 
+// Of Zstandard at best, above zlib's: four bytes for a block of 128 KiB of one value (RFC 8878,
+// 3.1.1.2).
+constexpr uint64_t kPackingRatio = 32768;
+
 // Section 3 of the specification: where the header's fields lie.
 constexpr uint64_t kHeaderBytes = 80;
 constexpr uint64_t kIndexEntryBytes = 24;
@@ -192,6 +196,10 @@ Result<Level> readLevel(std::span<const std::byte> file, uint32_t number, const 
         if (told != right) {
             return broken(name + " has " + numberText(told) + " bytes of texels; right is " +
                           numberText(right));
+        }
+        if (of.packing != Packing::kNone && right > size * kPackingRatio) {
+            return broken(name + " has " + numberText(size) + " bytes, which cannot hold the " +
+                          numberText(right) + " of its texels");
         }
     }
     return level;

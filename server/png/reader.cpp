@@ -11,6 +11,7 @@ namespace {
 
 constexpr size_t kSignatureBytes = 8;
 constexpr size_t kChannels = 4;
+constexpr uint64_t kDeflateRatio = 1032; // of zlib at best: zlib.net/zlib_tech.html
 
 void readBytes(png_structp png, png_bytep data, size_t size) {
     auto* left = static_cast<std::span<const std::byte>*>(png_get_io_ptr(png));
@@ -33,8 +34,16 @@ class Reader {
 
     [[nodiscard]] Result<Size> header() {
         Size size;
-        if (info_ == nullptr || !header(png_, info_, &left_, &size)) {
+        uint64_t packed_bytes = 0;
+        const size_t file_bytes = left_.size();
+        if (info_ == nullptr || !header(png_, info_, &left_, &size, &packed_bytes)) {
             return failure_.error();
+        }
+        if (packed_bytes > file_bytes * kDeflateRatio) {
+            return Error{ErrorCode::kIo, numberText(file_bytes) + " bytes cannot hold the " +
+                                             numberText(size.width_px) + "x" +
+                                             numberText(size.height_px) +
+                                             " pixels that its header tells"};
         }
         return size;
     }
@@ -53,8 +62,11 @@ class Reader {
 
   private:
     // The parts that libpng may leave by longjmp: no object with a destructor lives in them.
-    static bool
-    header(png_structp png, png_infop info, std::span<const std::byte>* left, Size* size) {
+    static bool header(png_structp png,
+                       png_infop info,
+                       std::span<const std::byte>* left,
+                       Size* size,
+                       uint64_t* packed_bytes) {
         if (setjmp(png_jmpbuf(png)) != 0) {
             return false;
         }
@@ -65,6 +77,7 @@ class Reader {
         png_read_info(png, info);
         size->width_px = png_get_image_width(png, info);
         size->height_px = png_get_image_height(png, info);
+        *packed_bytes = uint64_t{png_get_rowbytes(png, info)} * size->height_px;
         return true;
     }
     static bool pixels(png_structp png, png_infop info, png_bytepp rows, size_t row_bytes) {

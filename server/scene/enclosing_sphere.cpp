@@ -6,6 +6,9 @@ namespace froxel::scene {
 
 namespace {
 
+// Vertices that are looked at; what is left then counts by the corners of its box.
+constexpr uint64_t kMostVertices = uint64_t{1} << 26U;
+
 struct Placed {
     const Primitive* primitive;
     const Instance* instance;
@@ -48,8 +51,14 @@ settings::Sphere enclosingSphere(const Scene& scene) {
     std::sort(all.begin(), all.end(),
               [](const Placed& a, const Placed& b) { return a.most_m > b.most_m; });
     settings::Sphere sphere{middle, 0};
+    uint64_t vertices = 0;
     for (const Placed& placed : all) {
         if (placed.most_m <= sphere.radius_m) {
+            break;
+        }
+        vertices += placed.primitive->positions.size();
+        if (vertices > kMostVertices) {
+            sphere.radius_m = placed.most_m; // of all that are left the most
             break;
         }
         for (const glm::vec3& position : placed.primitive->positions) {

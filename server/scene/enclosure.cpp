@@ -15,6 +15,9 @@ constexpr size_t kRoomHits = kRayCount * 2 / 3;
 constexpr double kLeastMedian = 0.2;
 // A stool and a chest are hollow, too.
 constexpr double kLeastDiagonal_m = 6;
+// Triangles that rays are held against, of all together: a second or two. Things whose boxes all
+// lie over each other take more; what was met until then counts.
+constexpr uint64_t kMostTests = uint64_t{1} << 27U;
 
 struct Ray {
     glm::dvec3 from;
@@ -67,6 +70,7 @@ std::vector<std::optional<RayHit>> castRays(const Scene& scene,
                                             const glm::dvec3& from_world,
                                             const std::vector<glm::dvec3>& directions_world) {
     std::vector<std::optional<RayHit>> hits(directions_world.size());
+    uint64_t tests = 0;
     for (const Instance& instance : scene.instances) {
         const glm::dmat4& world_from_object = instance.world_from_object;
         const double det = glm::determinant(glm::dmat3(world_from_object));
@@ -87,6 +91,10 @@ std::vector<std::optional<RayHit>> castRays(const Scene& scene,
                     hits[i] ? hits[i]->distance_m : std::numeric_limits<double>::infinity();
                 if (!meets(ray, primitive.bounds, nearest)) {
                     continue;
+                }
+                tests += primitive.indices.size() / 3;
+                if (tests > kMostTests) {
+                    return hits;
                 }
                 for (size_t k = 0; k < primitive.indices.size() / 3; ++k) {
                     meetTriangle(ray, primitive, k, hits[i]);

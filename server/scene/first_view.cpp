@@ -21,15 +21,31 @@ constexpr double kStepBack = 0.8;
 // Of the surfaces that the best corner shows; where the usual one shows less, it is not taken.
 constexpr double kEnough = 0.1;
 
+// Of a scene with more triangles every so-manieth is looked at.
+constexpr uint64_t kMostLookedAt = uint64_t{1} << 24U;
+// Cameras that are tried: each looks at them anew.
+constexpr size_t kMostTried = 32;
+
+size_t strideOf(const Scene& scene) {
+    uint64_t triangles = 0;
+    for (const Instance& instance : scene.instances) {
+        for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
+            triangles += primitive.indices.size() / 3;
+        }
+    }
+    return triangles / kMostLookedAt + 1;
+}
+
 // Calls visit(corners in the world, whether both sides are drawn) for each triangle until it
 // returns true; whether it did.
 template <class Visit>
 bool anyTriangle(const Scene& scene, const Visit& visit) {
+    const size_t step = 3 * strideOf(scene);
     for (const Instance& instance : scene.instances) {
         const bool mirrors = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             const bool both = scene.materials[primitive.material].double_sided;
-            for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+            for (size_t i = 0; i + 2 < primitive.indices.size(); i += step) {
                 std::array<glm::dvec3, 3> corners;
                 for (size_t k = 0; k < 3; ++k) {
                     corners[k] =
@@ -147,8 +163,10 @@ FirstView firstViewOf(const Scene& scene, const settings::Sphere& sphere_world) 
     FirstView view;
     view.sphere_world = sphere_world;
     const auto sees = [&](const NamedCamera& camera) { return seesAnything(scene, camera.camera); };
-    const auto found = std::find_if(scene.cameras.begin(), scene.cameras.end(), sees);
-    if (found != scene.cameras.end()) {
+    const auto end = scene.cameras.begin() +
+                     static_cast<std::ptrdiff_t>(std::min(scene.cameras.size(), kMostTried));
+    const auto found = std::find_if(scene.cameras.begin(), end, sees);
+    if (found != end) {
         view.scene_camera = static_cast<size_t>(found - scene.cameras.begin());
         view.camera = found->camera;
     }

@@ -57,6 +57,18 @@ TEST_F(HostMemory, GroupsOfVersion1_Limit) {
     EXPECT_EQ(bytes(), 1024 * kMib);
 }
 
+TEST_F(HostMemory, Free_IsWhatHostAndGroupsLeave) {
+    write("proc/meminfo", "MemTotal: 8388608 kB\nMemFree: 1 kB\nMemAvailable: 4194304 kB\n");
+    EXPECT_EQ(freeMemoryBytes(root_), 4096 * kMib);
+    write("proc/self/cgroup", "0::/system.slice/froxel.service\n");
+    write("sys/fs/cgroup/system.slice/memory.max", std::to_string(2048 * kMib) + "\n");
+    write("sys/fs/cgroup/system.slice/memory.current", std::to_string(1948 * kMib) + "\n");
+    write("sys/fs/cgroup/system.slice/froxel.service/memory.max", "max\n");
+    EXPECT_EQ(freeMemoryBytes(root_), 100 * kMib);
+    write("sys/fs/cgroup/system.slice/memory.current", std::to_string(3000 * kMib) + "\n");
+    EXPECT_EQ(freeMemoryBytes(root_), 0U);
+}
+
 TEST_F(HostMemory, NothingToRead_IsUnknown) {
     fs::remove(root_ / "proc/meminfo");
     EXPECT_EQ(bytes(), std::nullopt);

@@ -296,8 +296,14 @@ TEST(Images, Ktx2SideTooLong_IsRefusedByItsHeader) {
 }
 
 TEST(Images, SideTooLong_IsRefusedByItsHeader) {
-    EXPECT_THAT(failure(withImage(pngClaiming(100'000, 2)).load()),
-                HasSubstr("image 0 has 100000x2 pixels; a side may have 1 to 16384"));
+    EXPECT_THAT(failure(withImage(pngClaiming(17'000, 1)).load()),
+                HasSubstr("image 0 has 17000x1 pixels; a side may have 1 to 16384"));
+}
+
+TEST(Images, MorePixelsThanTheirBytesCanHold_AreABrokenImage) {
+    EXPECT_THAT(test::told(withImage(pngClaiming(16384, 16384)).load()),
+                HasSubstr("bytes cannot hold the 16384x16384 pixels that its header tells; its "
+                          "textures are left out"));
 }
 
 // Each image alone is within the limits; the file says nothing of its pixels, so only the sum of
@@ -310,7 +316,9 @@ TEST(Images, SumTooLarge_IsRefusedByTheHeaders) {
         file.json["textures"].push_back({{"source", 3 + i}});
         file.json["images"].push_back(Json::object());
     }
-    const int view = file.addView(pngClaiming(16384, 16384));
+    Bytes png = pngClaiming(16384, 16384);
+    png.resize(size_t{16384} * 16384 * 4 / 1032 + 1); // so many might hold that
+    const int view = file.addView(png);
     for (Json& image : file.json["images"]) {
         image["bufferView"] = view;
     }
