@@ -32,21 +32,32 @@ class AffordableScale {
         }
         return first;
     }
+    // There is no memory for one at this scale; the last one was drawn at `drawn_scale`. Whether
+    // that is less, and is kept from now on.
+    bool onNoRoom(double drawn_scale) {
+        if (!(drawn_scale < scale_)) {
+            return false;
+        }
+        scale_ = most_ = drawn_scale;
+        return true;
+    }
+    // Another picture is asked for, for which there may be room.
+    void forgetRoom() { most_ = 1; }
     // One at this scale takes so much of what it may by its estimate.
     void onEstimate(double limit_share, double scale) {
-        if (scale != scale_ || scale_ == 1 || limit_share <= 0) {
+        if (scale != scale_ || scale_ >= most_ || limit_share <= 0) {
             return;
         }
-        const double next = std::min(1.0, scale_ / std::sqrt(limit_share * kCaution));
-        if (next == 1 || next > scale_ * kWorthAStep) {
+        const double next = std::min(most_, scale_ / std::sqrt(limit_share * kCaution));
+        if (next == most_ || next > scale_ * kWorthAStep) {
             scale_ = next;
             tries_ = 0;
         }
     }
     // It took so much of that. Whether a view that rests is to be drawn again, since it may grow.
     bool onTook(double limit_share, double scale) {
-        const bool too_small =
-            scale == scale_ && scale_ < 1 && limit_share * kCaution * kWorthAStep * kWorthAStep < 1;
+        const bool too_small = scale == scale_ && scale_ < most_ &&
+                               limit_share * kCaution * kWorthAStep * kWorthAStep < 1;
         return scale < scale_ || (too_small && ++tries_ <= kMostTries);
     }
 
@@ -63,6 +74,7 @@ class AffordableScale {
     static constexpr uint32_t kMostTries = 12;
 
     double scale_ = 1;
+    double most_ = 1;    // that there is memory for
     uint32_t tries_ = 0; // at this scale
     double limit_share_ = 1;
 };

@@ -566,6 +566,7 @@ void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame draw
         admission_.setNewcomersCost(newcomersCost());
     }
     viewer.drawn = frame.state;
+    viewer.drawn_scale = frame.record.delivered.scale;
     ++options_.fates->rendered;
     const session::Delivered& with = frame.record.delivered;
     if (frame.estimate > Seconds(0) && frame.record.full_size_us > 0 &&

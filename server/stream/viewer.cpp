@@ -90,6 +90,10 @@ std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) 
     } else if (built && built->state.scene != state.scene) {
         built.reset();
     }
+    if (no_room_for && *no_room_for != state.settings.size) {
+        no_room_for.reset();
+        affordable.forgetRoom();
+    }
     if (!built) {
         built = std::make_shared<BegunFrame>(BegunFrame{id, {}, state, now});
         session::FrameRecord& record = built->record;
@@ -144,6 +148,11 @@ bool Viewer::waitsInVain() const {
 
 bool Viewer::shrink(const Error& error) {
     const bool first = !drawn || drawn->scene != state.scene;
+    if (!first && error.code == ErrorCode::kCapacity &&
+        drawn->settings.size == state.settings.size && affordable.onNoRoom(drawn_scale)) {
+        no_room_for = state.settings.size;
+        return true;
+    }
     return !beside && error.code == ErrorCode::kTooLong &&
            affordable.onTooLong(error.too_large_by, first);
 }

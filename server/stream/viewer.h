@@ -53,6 +53,7 @@ struct Viewer {
     TimePoint arrived{};
     std::optional<session::SessionState> submitted; // what the device was last given
     std::optional<session::SessionState> drawn;     // what it last made a picture of
+    double drawn_scale = 1;                         // of that
     std::shared_ptr<BegunFrame> built;              // half: see FrameWork::half_built
     std::shared_ptr<BegunFrame> waiting;            // begun last, while pieces of it wait
     uint64_t last_frame_id = 0;
@@ -61,8 +62,9 @@ struct Viewer {
     uint32_t under_way = 0; // frames on the device or waiting for it
     session::Delivery delivery;
     session::RenderScale render_scale;
-    session::AffordableScale affordable; // in the scene that `source` is of
-    const bool beside;                   // single pictures: at the size asked for, or not at all
+    session::AffordableScale affordable;       // in the scene that `source` is of
+    std::optional<settings::Size> no_room_for; // in full, as far as was tried
+    const bool beside; // single pictures: at the size asked for, or not at all
     session::RefinementSchedule refinement;
     session::SteadyCost frame_cost;
     render::SampleMean mean;   // of the samples so far of a view that rests

@@ -101,7 +101,9 @@ rlim_t addressSpaceOf(pid_t pid) {
 
 // A CPU device's memory is the host's: allocating a large picture's targets fails for real.
 TEST(Memory, UsedUp_TheLargePictureIsRefusedAndTheOthersGoOn) {
-    ServerProcess server({"--size", "160x90", "--lights", "50", "--session-memory", "4096"});
+    // On a busy machine the picture would take too long and be drawn smaller.
+    ServerProcess server(
+        {"--size", "160x90", "--lights", "50", "--session-memory", "4096", "--frame-limit", "60"});
     const uint16_t port = server.port().value();
     WsClient viewer(port);
     viewer.join();

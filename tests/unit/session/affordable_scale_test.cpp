@@ -79,5 +79,22 @@ TEST(AffordableScale, WhereSizeDoesNotMatter_IsNotTriedAgain) {
     EXPECT_EQ(scale.scale(), 1);
 }
 
+TEST(AffordableScale, WithoutMemoryForMore_StaysAtWhatWasDrawn) {
+    AffordableScale scale;
+    ASSERT_TRUE(scale.onTooLong(100, true));
+    const double drawn = scale.scale();
+    scale.onEstimate(0.1, drawn);
+    ASSERT_GT(scale.scale(), drawn);
+    EXPECT_TRUE(scale.onNoRoom(drawn));
+    EXPECT_EQ(scale.scale(), drawn);
+    EXPECT_FALSE(scale.onNoRoom(drawn)) << "there was room for that";
+    scale.onEstimate(0.1, drawn);
+    EXPECT_EQ(scale.scale(), drawn);
+    EXPECT_FALSE(scale.onTook(0.1, drawn)) << "another picture would be no larger";
+    scale.forgetRoom();
+    scale.onEstimate(0.1, drawn);
+    EXPECT_GT(scale.scale(), drawn);
+}
+
 } // namespace
 } // namespace froxel::session
