@@ -19,7 +19,9 @@ Response verdict(const Result<void>& well) {
 
 } // namespace
 
-Response AdminSite::answer(const Request& request, std::string_view path) const {
+Response AdminSite::answer(const Request& request,
+                           std::string_view path,
+                           const boost::asio::ip::address& /*peer*/) const {
     if (path == kMetricsPath) {
         return makeResponse(http::status::ok, Metrics::kContentType, metrics_->text());
     }

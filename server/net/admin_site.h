@@ -40,7 +40,9 @@ class AdminSite final : public HttpSite {
 
     [[nodiscard]] const HostNames& hostNames() const override { return access_.host_names; }
 
-    [[nodiscard]] Response answer(const Request& request, std::string_view path) const override;
+    [[nodiscard]] Response answer(const Request& request,
+                                  std::string_view path,
+                                  const boost::asio::ip::address& peer) const override;
     [[nodiscard]] bool takesPost(std::string_view path) const override {
         return path == kDrainPath || roomIn(path);
     }

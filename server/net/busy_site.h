@@ -10,7 +10,8 @@ class BusySite final : public HttpSite {
   public:
     [[nodiscard]] const HostNames& hostNames() const override { return any_; }
     [[nodiscard]] Response answer(const Request& /*request*/,
-                                  std::string_view /*path*/) const override {
+                                  std::string_view /*path*/,
+                                  const boost::asio::ip::address& /*peer*/) const override {
         return refused();
     }
     [[nodiscard]] std::optional<Response>

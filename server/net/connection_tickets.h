@@ -1,63 +1,67 @@
-// Counts the connections of one listener, in all and by account. Any thread.
+// The connections of one listener, in all and by account. Any thread.
 #pragma once
 
-#include "net/client_address.h"
+#include "core/clock.h"
+
+#include <boost/asio/ip/address.hpp>
 
 #include <cstdint>
+#include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
-#include <utility>
 
 namespace froxel::net {
 
-// Counts a connection for as long as it is held.
-using ConnectionTicket = std::shared_ptr<const void>;
-
 class ConnectionTickets {
+    struct Book;
+
   public:
-    explicit ConnectionTickets(uint32_t connections_max) : connections_max_(connections_max) {}
+    // Counts a connection for as long as it is held.
+    class Ticket {
+      public:
+        ~Ticket();
+        Ticket(const Ticket&) = delete;
+        Ticket& operator=(const Ticket&) = delete;
 
-    // None where there are so many already, or `account_max` of the peer's account (callerAt).
-    [[nodiscard]] ConnectionTicket take(const boost::asio::ip::address& peer,
-                                        uint32_t account_max) {
-        std::string account = callerAt(peer).address.key;
-        {
-            const std::lock_guard lock(counts_->mutex);
-            if (counts_->total >= connections_max_ || counts_->of(account) >= account_max) {
-                return nullptr;
-            }
-            ++counts_->by_account[account];
-            ++counts_->total;
-        } // a ticket that memory does not suffice for is dropped, which locks
-        return {counts_.get(), [counts = counts_, account = std::move(account)](const void*) {
-                    counts->drop(account);
-                }};
-    }
+        // The connection waits for its client from now on, and may have to go for another. `close`
+        // is called at most once, on any thread, under a lock, and must not block.
+        void waitForClient(std::function<void()> close, TimePoint now);
+        // The client has said something.
+        void heardClient();
 
-  private:
-    struct Counts { // held by tickets, which may outlive the listener
-        [[nodiscard]] uint32_t of(const std::string& account) const {
-            const auto found = by_account.find(account);
-            return found == by_account.end() ? 0 : found->second;
-        }
-        void drop(const std::string& account) {
-            const std::lock_guard lock(mutex);
-            --total;
-            const auto found = by_account.find(account);
-            if (--found->second == 0) {
-                by_account.erase(found);
-            }
-        }
+      private:
+        friend class ConnectionTickets;
+        using Counts = std::map<std::string, uint32_t>; // by account; none has 0
+        struct Entry {
+            Counts::iterator account; // while it is counted
+            std::optional<TimePoint> waits_since{};
+            std::function<void()> close{};
+            bool counted = true; // until it had to go
+        };
+        Ticket(std::shared_ptr<Book> book, std::list<Entry>::iterator entry);
 
-        std::mutex mutex;
-        std::map<std::string, uint32_t> by_account;
-        uint32_t total = 0;
+        const std::shared_ptr<Book> book_; // tickets may outlive the listener
+        const std::list<Entry>::iterator entry_;
     };
 
+    explicit ConnectionTickets(uint32_t connections_max);
+
+    // None where there are so many already, or `account_max` of the peer's account (callerAt), and
+    // none that waits for its client gives way: one of the account that has most, if it has more
+    // than the peer's, and of these the one that has waited longest; else one of the peer's own,
+    // after a second at least.
+    [[nodiscard]] std::shared_ptr<Ticket>
+    take(const boost::asio::ip::address& peer, uint32_t account_max, TimePoint now);
+
+  private:
     const uint32_t connections_max_;
-    const std::shared_ptr<Counts> counts_ = std::make_shared<Counts>();
+    const std::shared_ptr<Book> book_;
 };
+
+using ConnectionTicket = std::shared_ptr<ConnectionTickets::Ticket>;
 
 } // namespace froxel::net

@@ -17,9 +17,14 @@ using session::RejectCode;
 using session::Rejection;
 
 Conversation::~Conversation() {
-    if (!seat_) {
+    leave();
+}
+
+void Conversation::leave() {
+    if (!seat_ || left_) {
         return;
     }
+    left_ = true;
     // A client that reads too slowly may find a better way here.
     const bool lost = !goodbye_ && (!closing_ || closing_->code == CloseCode::kSlowConsumer);
     lobby_->depart(*seat_, lost ? Departure::kLost : Departure::kLeft, Clock::now());

@@ -54,6 +54,8 @@ class Conversation {
     ~Conversation();
     Conversation(const Conversation&) = delete;
     Conversation& operator=(const Conversation&) = delete;
+    // What the destructor does with its place, before it: nothing is sent or handled after this.
+    void leave();
 
     void onMessage(protocol::ByteSpan message, protocol::WireFormat format, TimePoint now) {
         onDecoded(session::decodeCommand(message, format), format, now);
@@ -143,6 +145,7 @@ class Conversation {
     std::vector<session::CommandMessage> early_;
     session::Hello hello_;                // its secrets are forgotten when they have served
     std::optional<TokenGate::Pass> pass_; // of who had to show a token
+    bool left_ = false;                   // the seat
     std::optional<Seat> seat_;            // from Welcome on
     session::CommandStamp newest_;        // of this connection's commands that set state
     session::CommandStamp shown_;         // the newest of them that a picture has shown

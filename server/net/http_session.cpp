@@ -11,6 +11,7 @@
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace froxel::net {
@@ -51,6 +52,7 @@ void HttpSession::start() {
 }
 
 void HttpSession::shakeHands() {
+    giveWayWhileWaiting();
     stream_.next_layer().expires_after(kDeadline);
     stream_.async_handshake(boost::asio::ssl::stream_base::server, [self = shared_from_this()](
                                                                        beast::error_code error) {
@@ -77,7 +79,20 @@ bool HttpSession::draining() const {
     return service && service->status().draining.has_value();
 }
 
+void HttpSession::giveWayWhileWaiting() {
+    ticket_->waitForClient(closeLater(), Clock::now());
+}
+
+std::function<void()> HttpSession::closeLater() {
+    return [weak = weak_from_this()] {
+        if (const auto self = weak.lock()) {
+            boost::asio::post(self->strand_, [self] { self->close(); });
+        }
+    };
+}
+
 void HttpSession::read() {
+    giveWayWhileWaiting();
     parser_.emplace();
     parser_->header_limit(kMaxHeaderBytes);
     parser_->body_limit(boost::none);
@@ -133,14 +148,23 @@ void HttpSession::onRequest() {
         write(refusal(http::status::payload_too_large, "requests have no body here"));
         return;
     }
+    ticket_->heardClient();
     Request request = parser_->release();
     parser_.reset();
     if (const auto settled = settleForm(request); !settled) {
-        write(refusal(http::status::bad_request, settled.error().message));
+        write(refusal(settled.error().code == ErrorCode::kUnsupported
+                          ? http::status::not_implemented
+                          : http::status::bad_request,
+                      settled.error().message));
         return;
     }
     if (auto refused = refuseHost(request, *site_)) {
         write(std::move(*refused));
+        return;
+    }
+    const auto peer = peerAddress(stream_);
+    if (const Seconds wait = site_->waitOf(request, peer); wait.count() > 0) {
+        refuseLater(wait);
         return;
     }
     if (beast::websocket::is_upgrade(request)) {
@@ -151,8 +175,28 @@ void HttpSession::onRequest() {
         return;
     }
     const bool asks = request.method() == http::verb::get && pathOf(request) == kSocketPath;
-    auto refused = asks ? site_->refuseUpgrade(request, peerAddress(stream_)) : std::nullopt;
-    write(refused ? std::move(*refused) : respond(request, *site_));
+    auto refused = asks ? site_->refuseUpgrade(request, peer) : std::nullopt;
+    write(refused ? std::move(*refused) : respond(request, *site_, peer));
+}
+
+// A refusal that came at once would be asked for again at once, and each costs as much as an
+// answer.
+void HttpSession::refuseLater(Seconds wait) {
+    giveWayWhileWaiting();
+    constexpr Seconds kLeast{1};
+    constexpr Seconds kMost{5};
+    const Seconds pause = std::clamp(wait, kLeast, kMost);
+    request_deadline_.expires_after(std::chrono::ceil<std::chrono::milliseconds>(pause));
+    request_deadline_.async_wait([self = shared_from_this()](beast::error_code error) {
+        if (!error && !guarded("http answer", [&] {
+                Response response = refusal(http::status::too_many_requests,
+                                            "too many requests come from here; ask again later");
+                response.set(http::field::retry_after, "5");
+                self->write(std::move(response));
+            })) {
+            self->close();
+        }
+    });
 }
 
 bool HttpSession::answersLater(const Request& request) {
@@ -211,6 +255,9 @@ void HttpSession::write(LateAnswer answer) {
         stream_.next_layer().expires_after(kDeadline);
         send(response);
         return;
+    }
+    if (answer_.sending) {
+        answer_.sending(closeLater());
     }
     const std::vector<std::byte>& bytes = *answer_.picture;
     stream_.next_layer().expires_after(kDeadline +

@@ -10,6 +10,7 @@
 #include <boost/beast/http/span_body.hpp>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -43,6 +44,12 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     void onRead(boost::beast::error_code error);
     void onReadError(boost::beast::error_code error);
     void onRequest();
+    // Tells, after a while, that there were too many requests.
+    void refuseLater(Seconds wait);
+    // The client is waited for: the connection may have to go for another.
+    void giveWayWhileWaiting();
+    // Closes the connection, if it is still there; on any thread.
+    [[nodiscard]] std::function<void()> closeLater();
     void upgrade(Request request);
     // Whether the answer comes later.
     [[nodiscard]] bool answersLater(const Request& request);

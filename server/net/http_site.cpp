@@ -15,7 +15,8 @@ namespace http = boost::beast::http;
 
 namespace {
 
-Response answerTo(const Request& request, const HttpSite& site) {
+Response
+answerTo(const Request& request, const HttpSite& site, const boost::asio::ip::address& peer) {
     const bool posts = site.takesPost(pathOf(request));
     const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
     if (posts ? request.method() != http::verb::post : !reads) {
@@ -25,7 +26,7 @@ Response answerTo(const Request& request, const HttpSite& site) {
         response.set(http::field::allow, allowed);
         return response;
     }
-    return site.answer(request, pathOf(request));
+    return site.answer(request, pathOf(request), peer);
 }
 
 } // namespace
@@ -109,8 +110,9 @@ std::string_view pathOf(const Request& request) {
     return target.substr(0, target.find('?'));
 }
 
-Response respond(const Request& request, const HttpSite& site) {
-    return finished(request, LateAnswer{answerTo(request, site)}).response;
+Response
+respond(const Request& request, const HttpSite& site, const boost::asio::ip::address& peer) {
+    return finished(request, LateAnswer{answerTo(request, site, peer)}).response;
 }
 
 LateAnswer finished(const Request& request, LateAnswer answer) {

@@ -41,6 +41,9 @@ namespace froxel::net {
 struct LateAnswer {
     Response response;
     SharedBytes picture{};
+    // Told when the picture's bytes begin to be sent, and how the connection is closed, which they
+    // may have to go for; none: nobody wants to know.
+    std::function<void(std::function<void()> close)> sending{};
 };
 
 class HttpSite {
@@ -50,7 +53,15 @@ class HttpSite {
     // By which names it is asked.
     [[nodiscard]] virtual const HostNames& hostNames() const = 0;
     // A GET or HEAD, or a POST where takesPost(); `path` is without the query.
-    [[nodiscard]] virtual Response answer(const Request& request, std::string_view path) const = 0;
+    [[nodiscard]] virtual Response answer(const Request& request,
+                                          std::string_view path,
+                                          const boost::asio::ip::address& peer) const = 0;
+    // How long a request of `peer` has to wait, since there were too many before it: it is refused
+    // after that. 0 s: it is answered.
+    [[nodiscard]] virtual Seconds waitOf(const Request& /*request*/,
+                                         const boost::asio::ip::address& /*peer*/) const {
+        return Seconds(0);
+    }
     [[nodiscard]] virtual bool takesPost(std::string_view /*path*/) const { return false; }
     // A GET or HEAD of what takes longer than an answer may: `done` gets it once, on any thread and
     // maybe within. What comes back calls it off, on any thread. None: answer() has it.
@@ -88,7 +99,8 @@ class HttpSite {
 
 // The whole answer to a request that is no upgrade: GET and HEAD go to the site, HEAD gets the
 // headers of GET, and every answer the headers that keep browsers out of trouble.
-[[nodiscard]] Response respond(const Request& request, const HttpSite& site);
+[[nodiscard]] Response
+respond(const Request& request, const HttpSite& site, const boost::asio::ip::address& peer);
 // The same of what answerLater() gave.
 [[nodiscard]] LateAnswer finished(const Request& request, LateAnswer answer);
 

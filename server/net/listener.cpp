@@ -65,7 +65,8 @@ Listener::Listener(asio::io_context& io,
                    std::shared_ptr<const Tls> tls)
     : io_(io), acceptor_(asio::make_strand(io)), back_off_(acceptor_.get_executor()),
       connections_max_(connections_max), site_(std::move(site)),
-      busy_site_(std::make_shared<BusySite>()), tls_(std::move(tls)), tickets_(connections_max) {
+      busy_site_(std::make_shared<BusySite>()), tls_(std::move(tls)), tickets_(connections_max),
+      refused_tickets_(kRefusedMax) {
     Failure failure;
     const auto ip = asio::ip::make_address(bind.address, failure);
     if (failure) {
@@ -126,17 +127,17 @@ void Listener::onAccepted(Failure failure, tcp::socket socket) {
     }
     Failure gone; // it has no address then, and its first read fails
     const asio::ip::address peer = socket.remote_endpoint(gone).address();
-    ConnectionTicket ticket = failure ? nullptr : tickets_.take(peer, site_->connectionsMax(peer));
+    const TimePoint now = Clock::now();
+    ConnectionTicket ticket =
+        failure ? nullptr : tickets_.take(peer, site_->connectionsMax(peer), now);
     if (ticket) {
         serve(std::move(socket), site_, std::move(ticket));
     } else if (!failure) {
         spdlog::warn("event=connection_refused port={} peer={} limit={}", port_, peer.to_string(),
                      connections_max_);
         site_->onConnectionRefused();
-        if (refused_count_->load() < kRefusedMax) {
-            ++*refused_count_;
-            const auto done = [count = refused_count_](const void*) { --*count; };
-            serve(std::move(socket), busy_site_, ConnectionTicket(nullptr, done));
+        if (auto told = refused_tickets_.take(peer, kRefusedMax, now)) {
+            serve(std::move(socket), busy_site_, std::move(told));
         } // else the socket closes here: a refusal would take what is short
     }
     accept();

@@ -9,7 +9,6 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 
-#include <atomic>
 #include <memory>
 #include <string>
 
@@ -32,8 +31,6 @@ class Listener final : public std::enable_shared_from_this<Listener> {
     void stop();
 
   private:
-    using Count = std::atomic<uint32_t>;
-
     void accept();
     void onAccepted(boost::system::error_code error, boost::asio::ip::tcp::socket socket);
     void serve(boost::asio::ip::tcp::socket socket,
@@ -48,7 +45,7 @@ class Listener final : public std::enable_shared_from_this<Listener> {
     const std::shared_ptr<const HttpSite> busy_site_;
     const std::shared_ptr<const Tls> tls_; // null: without encryption
     ConnectionTickets tickets_;
-    const std::shared_ptr<Count> refused_count_ = std::make_shared<Count>(0);
+    ConnectionTickets refused_tickets_; // of those that are told so
     uint16_t port_ = 0;
 };
 

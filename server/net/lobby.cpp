@@ -97,6 +97,9 @@ PlaceResult<Lobby::Entries::iterator> Lobby::addMember(const Serving& serving,
     if (!hello.room.empty()) {
         rooms_[hello.room] = session;
     }
+    if (std::ranges::find(sessions_, session) == sessions_.end()) {
+        sessions_.push_back(session);
+    }
     return entries_.emplace(last_member_, std::move(entry)).first;
 }
 
@@ -131,13 +134,12 @@ Lobby::whoGivesWay(const Serving& serving, const Caller& caller, TimePoint now) 
     if (auto fits = serving.port->admits(caller.account(), now); !fits) {
         return whyNot(fits.error(), now);
     }
-    const auto all = sessions();
-    if (rules_.sessions_max == 0 || all.size() < rules_.sessions_max) {
+    if (rules_.sessions_max == 0 || sessions_.size() < rules_.sessions_max) {
         return nullptr;
     }
     std::shared_ptr<LiveSession> longest;
     TimePoint since = now;
-    for (const auto& session : all) {
+    for (const auto& session : sessions_) {
         if (const TimePoint until = session->watchedUntil(rules_.rest); until <= since) {
             since = until;
             longest = session;
@@ -164,8 +166,7 @@ Closing Lobby::whyNot(const Error& error, TimePoint now) const {
 
 PlaceResult<void> Lobby::withinLimits(const Caller& caller) const {
     const auto check = [this](const std::string& of, uint32_t limit, const auto& counts) {
-        const auto all = sessions();
-        if (limit == 0 || std::count_if(all.begin(), all.end(), counts) < int64_t{limit}) {
+        if (limit == 0 || std::ranges::count_if(sessions_, counts) < int64_t{limit}) {
             return PlaceResult<void>();
         }
         return PlaceResult<void>(
@@ -253,6 +254,7 @@ void Lobby::depart(const Seat& seat, Departure how, TimePoint now) {
 
 Lobby::Entries::iterator Lobby::remove(Entries::iterator entry, Mail& mail) {
     if (entry->second.session->removeMember(entry->first, mail)) {
+        std::erase(sessions_, entry->second.session);
         rooms_.erase(entry->second.room);
     }
     const auto next = entries_.erase(entry);
@@ -288,7 +290,7 @@ void Lobby::expire(TimePoint now) {
         }
         ++entry;
     }
-    for (const auto& session : sessions()) {
+    for (const auto& session : std::vector(sessions_)) { // some may end
         const TimePoint forgotten = session->watchedUntil({rules_.forget, rules_.forget});
         if (rules_.forget.count() > 0 && forgotten <= now) {
             end(*session, {protocol::CloseCode::kResting, "nobody watches"}, mail);
@@ -329,15 +331,7 @@ size_t Lobby::awayCount() const {
 
 size_t Lobby::sessionCount() const {
     const std::lock_guard lock(mutex_);
-    return sessions().size();
-}
-
-std::set<std::shared_ptr<LiveSession>> Lobby::sessions() const {
-    std::set<std::shared_ptr<LiveSession>> all;
-    for (const auto& [member, entry] : entries_) {
-        all.insert(entry.session);
-    }
-    return all;
+    return sessions_.size();
 }
 
 size_t Lobby::countAway() const {

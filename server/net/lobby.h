@@ -16,8 +16,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
+#include <vector>
 
 namespace froxel::net {
 
@@ -109,7 +109,6 @@ class Lobby {
     [[nodiscard]] PlaceResult<void> withinLimits(const Caller& caller) const;
     // Whether the room takes one more viewer.
     [[nodiscard]] PlaceResult<void> roomTakes(const std::string& room, const Caller& caller) const;
-    [[nodiscard]] std::set<std::shared_ptr<LiveSession>> sessions() const;
     void end(const LiveSession& session, const Closing& closing, Mail& mail);
     [[nodiscard]] size_t countAway() const;
     Entries::iterator remove(Entries::iterator entry, Mail& mail);
@@ -127,7 +126,8 @@ class Lobby {
     session::MemberId last_member_ = 0;
     uint64_t last_connection_ = 0;
     Entries entries_;
-    std::map<std::string, std::shared_ptr<LiveSession>> rooms_; // with somebody in them
+    std::vector<std::shared_ptr<LiveSession>> sessions_; // with somebody in them, or waited for
+    std::map<std::string, std::shared_ptr<LiveSession>> rooms_; // likewise
 };
 
 } // namespace froxel::net

@@ -86,6 +86,10 @@ constexpr std::array kListGauges = {
 // Of refused upgrades.
 constexpr std::array kUpgradeStatuses = {400U, 403U, 404U, 503U};
 
+constexpr std::array kRequestRefusals = {std::pair(RequestRefusal::kToken, "token"),
+                                         std::pair(RequestRefusal::kRate, "rate"),
+                                         std::pair(RequestRefusal::kForeign, "foreign")};
+
 // Close codes with rows of their own: RFC 6455's that happen, and the protocol's.
 bool isKnown(uint16_t code) {
     return (code >= 1000 && code <= 1011) || (code >= 4001 && code <= 4099);
@@ -168,6 +172,9 @@ struct Metrics::Impl {
         family("froxel_websocket_closes_total", "WebSockets that ended, by close code.");
     prometheus::Family<Counter>& upgrades =
         family("froxel_upgrades_refused_total", "Requests that did not become a WebSocket.");
+    prometheus::Family<Counter>& requests =
+        family("froxel_requests_refused_total", "Requests over HTTP that were not answered.");
+    std::map<RequestRefusal, Counter*> refused_requests{}; // fixed once it is made
     prometheus::Family<Counter>& pairs = family(
         "froxel_light_pairs_total", "(light, pixel) pairs of the pictures sent that counted them.");
     Counter& evaluated = pairs.Add({{"kind", "evaluated"}});
@@ -199,6 +206,9 @@ Metrics::Metrics(const std::string& version, std::function<size_t()> session_cou
     }
     for (const unsigned status : kUpgradeStatuses) {
         impl_->upgrades.Add({{"status", std::to_string(status)}});
+    }
+    for (const auto& [why, reason] : kRequestRefusals) {
+        impl_->refused_requests[why] = &impl_->requests.Add({{"reason", reason}});
     }
     auto& stages = prometheus::BuildHistogram()
                        .Name("froxel_stage_duration_seconds")
@@ -298,6 +308,10 @@ void Metrics::socketClosed(uint16_t code) {
 
 void Metrics::upgradeRefused(unsigned http_status) {
     impl_->upgrades.Add({{"status", std::to_string(http_status)}}).Increment();
+}
+
+void Metrics::requestRefused(RequestRefusal why) {
+    impl_->refused_requests.at(why)->Increment();
 }
 
 void Metrics::connectionRefused() {

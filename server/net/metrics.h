@@ -21,6 +21,13 @@
 
 namespace froxel::net {
 
+// Why a request over HTTP was refused.
+enum class RequestRefusal : uint8_t {
+    kToken,   // it showed none, or a wrong one
+    kRate,    // too many came from there
+    kForeign, // a page of another site had it asked
+};
+
 class Metrics {
   public:
     static constexpr const char* kContentType = "text/plain; version=0.0.4; charset=utf-8";
@@ -53,6 +60,7 @@ class Metrics {
     void upgradeRefused(unsigned http_status);
     // A connection over the limit was closed unanswered.
     void connectionRefused();
+    void requestRefused(RequestRefusal why);
     // Nothing is counted for kNone.
     void rateStepped(session::RateStep step);
 

@@ -47,6 +47,18 @@ std::optional<Origin> parsed(std::string_view text) {
     return originOf(encrypted, uri->authority());
 }
 
+// Of a page's address.
+std::optional<Origin> siteOf(std::string_view address) {
+    const auto uri = urls::parse_uri({address.data(), address.size()});
+    if (!uri || !uri->has_authority()) {
+        return {};
+    }
+    const bool encrypted = uri->scheme_id() == urls::scheme::https;
+    return encrypted || uri->scheme_id() == urls::scheme::http
+               ? originOf(encrypted, uri->authority())
+               : std::nullopt;
+}
+
 } // namespace
 
 bool isOrigin(std::string_view text) {
@@ -71,6 +83,23 @@ bool originAllowed(std::optional<std::string_view> origin,
     const auto authority = urls::parse_authority({host.data(), host.size()});
     return authority && originOf(page->encrypted, *authority) == page &&
            (page->encrypted || !secure);
+}
+
+Fetch fetchOf(const FetchedBy& by, std::string_view host, std::span<const std::string> allowed) {
+    const bool elsewhere = by.site && *by.site != "same-origin" && *by.site != "none";
+    if (!elsewhere) {
+        return by.site || originAllowed(by.origin, host, false, allowed) ? Fetch::kOwn
+                                                                         : Fetch::kForeign;
+    }
+    if (by.mode == "navigate" && by.dest == "document") {
+        return Fetch::kOwn;
+    }
+    const auto page = by.origin    ? parsed(*by.origin)
+                      : by.referer ? siteOf(*by.referer)
+                                   : std::nullopt;
+    const bool listed = page && std::any_of(allowed.begin(), allowed.end(),
+                                            [&](const auto& text) { return parsed(text) == page; });
+    return listed ? Fetch::kAllowed : Fetch::kForeign;
 }
 
 } // namespace froxel::net

@@ -2,6 +2,7 @@
 // this server. Programs that are not browsers send no Origin and are let in: they could send any.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,5 +20,24 @@ namespace froxel::net {
                                  std::string_view host,
                                  bool secure,
                                  std::span<const std::string> allowed);
+
+// What a browser says of who has it ask, by fetch or for a page: fields of the request, none where
+// it has none.
+struct FetchedBy {
+    std::optional<std::string_view> site{}; // Sec-Fetch-Site (W3C Fetch Metadata)
+    std::optional<std::string_view> mode{}; // Sec-Fetch-Mode
+    std::optional<std::string_view> dest{}; // Sec-Fetch-Dest
+    std::optional<std::string_view> origin{};
+    std::optional<std::string_view> referer{};
+};
+enum class Fetch : uint8_t {
+    kOwn,     // by the server's own page, a person, or a program
+    kAllowed, // by a page of another site that `allowed` lists
+    kForeign, // by one that it does not
+};
+// A browser that asks for a picture of another site's page sends no Origin: the page is known by
+// its Referer then. A link that a person follows is their own. Pure.
+[[nodiscard]] Fetch
+fetchOf(const FetchedBy& by, std::string_view host, std::span<const std::string> allowed);
 
 } // namespace froxel::net

@@ -81,6 +81,68 @@ bool cameSecurely(const Request& request, const asio::ip::address& peer, const S
                                        viewOf(request["X-Forwarded-Proto"]), site.trusted_proxies);
 }
 
+std::optional<std::string_view> fieldOf(const Request& request, beast::string_view name) {
+    const auto found = request.find(name);
+    return found == request.end() ? std::nullopt : std::optional(viewOf(found->value()));
+}
+
+Fetch fetchOf(const Request& request, const Site& site) {
+    return net::fetchOf({fieldOf(request, "Sec-Fetch-Site"), fieldOf(request, "Sec-Fetch-Mode"),
+                         fieldOf(request, "Sec-Fetch-Dest"), fieldOf(request, "Origin"),
+                         fieldOf(request, "Referer")},
+                        viewOf(request[http::field::host]), site.allowed_origins);
+}
+
+// Pages of other sites must not have the server work; none where this request may.
+std::optional<Response> refuseForeign(const Request& request, const Site& site) {
+    if (fetchOf(request, site) != Fetch::kForeign) {
+        return {};
+    }
+    site.metrics->requestRefused(RequestRefusal::kForeign);
+    return apiRefusal(http::status::forbidden,
+                      {"foreign", "",
+                       "pages of other sites may not ask for this; --allow-origin of froxel serve "
+                       "lets one"});
+}
+
+// What a page of an allowed site needs beside the answer, lest its browser keep it back.
+void letOthersRead(const Request& request, const Site& site, Response& response) {
+    if (site.allowed_origins.empty()) {
+        return;
+    }
+    response.set(http::field::vary, "Origin, Sec-Fetch-Site");
+    if (fetchOf(request, site) == Fetch::kAllowed) {
+        response.set("Cross-Origin-Resource-Policy", "cross-origin");
+        if (const auto origin = fieldOf(request, "Origin")) {
+            response.set(http::field::access_control_allow_origin,
+                         beast::string_view(origin->data(), origin->size()));
+        }
+    }
+}
+
+// None where the token that the request shows, if it needs one, is wrong. Who guesses is told of,
+// and has to wait.
+std::optional<Caller>
+admitted(const Request& request, const asio::ip::address& peer, const Site& site) {
+    Caller caller = callerOf(request, peer, site);
+    if (!site.gate) {
+        return caller;
+    }
+    const std::string_view token = bearerToken(request);
+    const auto pass = site.gate->admit(token);
+    if (pass) {
+        caller.token = pass->account();
+        return caller;
+    }
+    if (!token.empty()) { // a page without one is none that guesses
+        site.request_limits->onWrongToken(caller.address, Clock::now());
+    }
+    site.metrics->requestRefused(RequestRefusal::kToken);
+    spdlog::warn("event=token_refused peer={} reason={}", caller.address.key,
+                 token.empty() ? "missing" : "unknown");
+    return {};
+}
+
 // By which a page knows the reason of a refusal, as of a close.
 constexpr std::string_view kCloseCodeField = "Froxel-Close-Code";
 
@@ -132,7 +194,9 @@ whyNoUpgrade(const Request& request, const asio::ip::address& peer, const Site& 
 
 } // namespace
 
-Response PublicSite::answer(const Request& request, std::string_view path) const {
+Response PublicSite::answer(const Request& request,
+                            std::string_view path,
+                            const asio::ip::address& peer) const {
     if (path == "/healthz") {
         return health(site_->service->status());
     }
@@ -143,9 +207,15 @@ Response PublicSite::answer(const Request& request, std::string_view path) const
         return response;
     }
     if (SceneListing::has(path)) {
-        return site_->gate && !site_->gate->lets(bearerToken(request))
-                   ? noToken()
-                   : site_->scenes->answer(request, path);
+        if (auto refused = refuseForeign(request, *site_)) {
+            return std::move(*refused);
+        }
+        if (!admitted(request, peer, *site_)) {
+            return noToken();
+        }
+        Response response = site_->scenes->answer(request, path);
+        letOthersRead(request, *site_, response);
+        return response;
     }
     if (path == "/metrics") {
         return textResponse(http::status::not_found,
@@ -177,16 +247,20 @@ PublicSite::answerLater(const Request& request,
     if (!StillAnswers::has(path)) {
         return {};
     }
-    Caller caller = callerOf(request, peer, *site_);
-    if (site_->gate) {
-        const auto pass = site_->gate->admit(bearerToken(request));
-        if (!pass) {
-            done({noToken()});
-            return [] {};
-        }
-        caller.token = pass->account();
+    if (auto refused = refuseForeign(request, *site_)) {
+        done({std::move(*refused)});
+        return [] {};
     }
-    return site_->stills->answer(request, path, caller, site_->gate == nullptr, done);
+    const auto caller = admitted(request, peer, *site_);
+    if (!caller) {
+        done({noToken()});
+        return [] {};
+    }
+    return site_->stills->answer(request, path, *caller, site_->gate == nullptr,
+                                 [site = site_, request, done](LateAnswer answer) {
+                                     letOthersRead(request, *site, answer.response);
+                                     done(std::move(answer));
+                                 });
 }
 
 std::optional<Response> PublicSite::refuseUpgrade(const Request& request,
@@ -202,6 +276,23 @@ std::optional<Response> PublicSite::refuseUpgrade(const Request& request,
                      logValue(viewOf(request[http::field::host]), 80));
     }
     return refused;
+}
+
+// A wrong token counts for the address that shows it, a valid one for itself.
+Seconds PublicSite::waitOf(const Request& request, const asio::ip::address& peer) const {
+    const Caller caller = callerOf(request, peer, *site_);
+    const auto pass = site_->gate ? site_->gate->admit(bearerToken(request)) : std::nullopt;
+    const auto& token = pass ? pass->account() : caller.token;
+    if (caller.local && !token) {
+        return Seconds(0);
+    }
+    const Seconds wait = site_->request_limits->ask(token ? *token : caller.address, Clock::now());
+    if (wait.count() > 0) {
+        site_->metrics->requestRefused(RequestRefusal::kRate);
+        spdlog::warn("event=requests_refused peer={} reason=\"more than {:g} a second\"",
+                     caller.address.key, RequestLimits::kPerSecond);
+    }
+    return wait;
 }
 
 uint32_t PublicSite::connectionsMax(const asio::ip::address& peer) const {

@@ -14,7 +14,11 @@ class PublicSite final : public HttpSite {
     explicit PublicSite(std::shared_ptr<const Site> site) : site_(std::move(site)) {}
 
     [[nodiscard]] const HostNames& hostNames() const override { return site_->host_names; }
-    [[nodiscard]] Response answer(const Request& request, std::string_view path) const override;
+    [[nodiscard]] Response answer(const Request& request,
+                                  std::string_view path,
+                                  const boost::asio::ip::address& peer) const override;
+    [[nodiscard]] Seconds waitOf(const Request& request,
+                                 const boost::asio::ip::address& peer) const override;
     [[nodiscard]] std::optional<CallOff>
     answerLater(const Request& request,
                 std::string_view path,

@@ -35,6 +35,14 @@ Result<void> settleForm(Request& request) {
                          "the field " + std::string(name) + " came more than once"};
         }
     }
+    // No request here has a body, and one whose end others see elsewhere hides the next (RFC 9112,
+    // 6.1 and 11.2).
+    if (request.count(http::field::transfer_encoding) > 0) {
+        return Error{ErrorCode::kUnsupported,
+                     "the Transfer-Encoding " +
+                         printable(std::string(request[http::field::transfer_encoding])) +
+                         " is not understood; requests have no body here"};
+    }
     for (const auto name : kLists) {
         const auto lines = request.equal_range(name);
         if (lines.first == lines.second || std::next(lines.first) == lines.second) {

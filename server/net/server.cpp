@@ -46,6 +46,7 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& lon
     site->lobby = std::make_shared<Lobby>(options.lobby);
     site->metrics = std::make_shared<Metrics>(
         options.version, [lobby = site->lobby] { return lobby->sessionCount(); });
+    site->request_limits = std::make_shared<RequestLimits>();
     site->scenes = std::make_shared<const SceneListing>(options.catalogue, site->service);
     site->still_desk = std::make_shared<still::StillDesk>(options.stills);
     site->stills =

@@ -1,5 +1,5 @@
-// What all viewers of one server have in common. Immutable but for the service, the lobby and the
-// metrics, which any thread may use.
+// What all viewers of one server have in common. Immutable but for the service, the lobby, the
+// limits and the metrics, which any thread may use.
 #pragma once
 
 #include "net/client_address.h"
@@ -7,6 +7,7 @@
 #include "net/lobby.h"
 #include "net/long_work.h"
 #include "net/metrics.h"
+#include "net/request_limits.h"
 #include "net/scene_listing.h"
 #include "net/service.h"
 #include "net/static_files.h"
@@ -31,6 +32,7 @@ struct Site {
     std::shared_ptr<Service> service;
     std::shared_ptr<Lobby> lobby;
     std::shared_ptr<Metrics> metrics;
+    std::shared_ptr<RequestLimits> request_limits;
     std::shared_ptr<const SceneListing> scenes;
     std::shared_ptr<still::StillDesk> still_desk;
     std::shared_ptr<const StillAnswers> stills;

@@ -75,6 +75,15 @@ Response refusedBy(const still::StillRefusal& refusal, bool thumbnail) {
     return response;
 }
 
+// What counts until it is sent, and may have to go for others' (Unsent::shrinkTo).
+LateAnswer onItsWay(Response response, const SharedBytes& bytes) {
+    return {std::move(response), bytes, [held = std::weak_ptr(bytes)](std::function<void()> close) {
+                if (const auto sent = held.lock()) {
+                    still::Unsent::sending(sent, std::move(close), Clock::now());
+                }
+            }};
+}
+
 // One of the scene's path and "/thumb"; empty: none.
 std::string_view sceneOfThumbnail(std::string_view path) {
     if (!SceneListing::has(path) || !path.ends_with(kThumbnail)) {
@@ -200,8 +209,8 @@ HttpSite::CallOff StillAnswers::answer(const Request& request,
                 done({refusedBy(*refusal, thumbnail)});
                 return;
             }
-            done({tagged(makeResponse(http::status::ok, format.content_type, {})),
-                  std::get<SharedBytes>(outcome)});
+            done(onItsWay(tagged(makeResponse(http::status::ok, format.content_type, {})),
+                          std::get<SharedBytes>(outcome)));
         },
         Clock::now());
     return [desk = desk_, ticket] { desk->cancel(ticket); };

@@ -144,6 +144,18 @@ void WsConnection::setOptions() {
 
 void WsConnection::onAccepted() {
     upgrade_ = {};
+    // From here on the first is the closing handshake's, too.
+    stream_.set_option(
+        websocket::stream_base::timeout{kCloseTimeout, kIdleTimeout, /*keep_alive_pings=*/true});
+    ticket_->waitForClient(
+        [weak = weak_from_this()] {
+            if (const auto self = weak.lock()) {
+                self->onStrand([raw = self.get()](Conversation& /*talk*/) {
+                    raw->abandon("it said nothing, and another has its place");
+                });
+            }
+        },
+        Clock::now());
     hello_deadline_.expires_after(protocol::kHelloTimeout);
     hello_deadline_.async_wait([self = shared_from_this()](ErrorCode error) {
         if (!error && self->conversation_) {
@@ -186,6 +198,7 @@ void WsConnection::onRead(ErrorCode error) {
     if (!conversation_) {
         return;
     }
+    ticket_->heardClient();
     const bool was_greeted = conversation_->greeted();
     const auto format =
         stream_.got_text() ? protocol::WireFormat::kText : protocol::WireFormat::kBinary;
@@ -305,6 +318,7 @@ void WsConnection::onWritten(ErrorCode error) {
 // and lose that.
 void WsConnection::linger() {
     lingering_ = true;
+    conversation_->leave(); // nothing reaches it any more: its place is others'
     write_deadline_.expires_after(2 * PeerStream::kLinger);
     write_deadline_.async_wait([self = shared_from_this()](ErrorCode error) {
         if (!error) {

@@ -16,8 +16,9 @@ namespace {
 // A scene for which the device had no room is asked for once more after it: a seat of the desk's
 // own may have held another, which leaves with it.
 constexpr Seconds kSceneAgain{0.5};
-// Of accounts whose allowance is remembered; one that has all of it is forgotten.
-constexpr size_t kAllowancesMost = 4096;
+// A scene that is still on its way after so long no longer keeps the next one from being asked for.
+constexpr Seconds kSlowScene{5};
+constexpr size_t kSlowScenesMost = 2;
 // What is said to fit is this much smaller than computed, since not all of a frame's cost goes by
 // its area.
 constexpr double kCaution = 1.2;
@@ -97,7 +98,8 @@ class StillDesk::Seat final : public session::FrameSink {
 };
 
 StillDesk::StillDesk(const StillLimits& limits)
-    : limits_(limits), kept_(limits.kept_bytes), thumbnails_(limits.kept_thumbnail_bytes) {}
+    : limits_(limits), allowances_(limits.at_once, limits.per_minute / 60),
+      kept_(limits.kept_bytes), thumbnails_(limits.kept_thumbnail_bytes) {}
 
 template <class Step>
 void StillDesk::locked(const Step& step) {
@@ -125,7 +127,7 @@ StillDesk::Ticket StillDesk::ask(const StillSource& source,
         ticket = ++last_ticket_;
         Waiter waiter{ticket, account, std::move(answer)};
         if (const auto bytes = storeFor(request).find(request.tag)) {
-            if (auto refusal = whyNotHeld(account, bytes->size())) {
+            if (auto refusal = whyNotHeld(account, bytes->size(), now)) {
                 putOff(waiter, std::move(*refusal), calls);
                 return;
             }
@@ -147,7 +149,7 @@ void StillDesk::add(
         std::ranges::find_if(jobs_, [&](const Job& job) { return job.request.tag == request.tag; });
     auto refusal = whyNot(waiter.account, same == jobs_.end(), now);
     if (!refusal && same != jobs_.end() && same->bytes > 0) {
-        refusal = whyNotHeld(waiter.account, same->bytes);
+        refusal = whyNotHeld(waiter.account, same->bytes, now);
     }
     if (refusal) {
         putOff(waiter, std::move(*refusal), calls);
@@ -208,14 +210,7 @@ StillDesk::whyNot(const std::optional<session::Account>& account, bool is_new, T
     if (!account || !is_new || limits_.per_minute <= 0) {
         return {};
     }
-    if (allowances_.size() >= kAllowancesMost) {
-        std::erase_if(allowances_, [&](const auto& entry) {
-            return entry.second.leftAt(now) >= limits_.at_once;
-        });
-    }
-    auto& allowance =
-        allowances_.try_emplace(*account, Allowance(limits_.at_once, limits_.per_minute / 60))
-            .first->second;
+    Allowance& allowance = allowances_.of(*account, now);
     if (allowance.take(now)) {
         return {};
     }
@@ -226,7 +221,8 @@ StillDesk::whyNot(const std::optional<session::Account>& account, bool is_new, T
 }
 
 std::optional<StillRefusal> StillDesk::whyNotHeld(const std::optional<session::Account>& account,
-                                                  uint64_t bytes) const {
+                                                  uint64_t bytes,
+                                                  TimePoint now) {
     constexpr std::chrono::seconds kSoon{5};
     const Waiting now_waiting = waiting(account);
     const uint64_t all = unsent_->all() + now_waiting.all_bytes;
@@ -238,8 +234,10 @@ std::optional<StillRefusal> StillDesk::whyNotHeld(const std::optional<session::A
     if (own > 0 && own + bytes > limits_.account_bytes) {
         return later(RejectCode::kRateLimit, text(own, " to here"), kSoon);
     }
-    // Few who do not read must not keep a gallery from all others.
-    if (bytes > limits_.small_bytes && all > 0 && all + bytes > limits_.all_bytes) {
+    const uint64_t others = now_waiting.all_bytes + bytes;
+    if (all > 0 && all + bytes > limits_.all_bytes &&
+        (others > limits_.all_bytes ||
+         !unsent_->shrinkTo(limits_.all_bytes - others, own + bytes, now))) {
         return later(RejectCode::kCapacity, text(all, ""), kSoon);
     }
     return {};
@@ -253,8 +251,14 @@ void StillDesk::putOff(Waiter& waiter, StillRefusal refusal, Calls& calls) {
 
 // Those that are there at once; of the others one at a time.
 void StillDesk::wantScenes(TimePoint now, Calls& calls) {
-    bool one_comes = std::ranges::any_of(
-        jobs_, [](const Job& job) { return job.stage == Stage::kScene && job.scene_asked; });
+    std::map<std::string, TimePoint> coming; // by id: asked for since
+    for (const Job& job : jobs_) {
+        if (job.stage == Stage::kScene && job.scene_asked) {
+            coming.emplace(job.request.scene, *job.scene_asked);
+        }
+    }
+    const auto isSlow = [&](const auto& one) { return now - one.second >= kSlowScene; };
+    bool one_comes = coming.size() >= kSlowScenesMost || !std::ranges::all_of(coming, isSlow);
     for (auto job = jobs_.begin(); job != jobs_.end();) {
         const auto here = job++;
         if (here->stage != Stage::kScene || here->scene_asked ||
@@ -263,11 +267,8 @@ void StillDesk::wantScenes(TimePoint now, Calls& calls) {
         }
         session::ScenePort& scenes = *here->source.scenes;
         const std::string& id = here->request.scene;
-        const bool comes = std::ranges::any_of(jobs_, [&](const Job& other) {
-            return other.scene_asked && other.stage == Stage::kScene && other.request.scene == id;
-        });
-        if (comes) {
-            here->scene_asked = true; // with that one
+        if (const auto other = coming.find(id); other != coming.end()) {
+            here->scene_asked = other->second;
             continue;
         }
         const auto standing = scenes.reportOf(id).standing;
@@ -283,8 +284,10 @@ void StillDesk::wantScenes(TimePoint now, Calls& calls) {
         } else if (*scene) {
             onSceneHere(here, *scene, now, calls);
         } else {
-            here->scene_asked = true;
+            here->scene_asked = now;
+            coming.emplace(id, now);
             one_comes = true;
+            alarm_(now + std::chrono::ceil<Clock::duration>(kSlowScene));
         }
     }
 }
@@ -297,7 +300,7 @@ void StillDesk::onScene(const std::string& id, Result<session::SharedContext> sc
             if (here->stage != Stage::kScene || !here->scene_asked || here->request.scene != id) {
                 continue;
             }
-            here->scene_asked = false;
+            here->scene_asked.reset();
             if (scene) {
                 onSceneHere(here, *scene, now, calls);
             } else if (scene.error().code == ErrorCode::kCapacity && !here->scene_again) {
@@ -326,7 +329,7 @@ void StillDesk::onSceneHere(Jobs::iterator job,
     }
     const uint64_t bytes = answerBytes(job->request.codec, state->settings.size);
     std::erase_if(job->waiters, [&](Waiter& waiter) {
-        auto refusal = whyNotHeld(waiter.account, bytes);
+        auto refusal = whyNotHeld(waiter.account, bytes, now);
         if (refusal) {
             putOff(waiter, std::move(*refusal), calls);
         }
@@ -494,16 +497,20 @@ void StillDesk::cancel(Ticket ticket) {
             }
             const Job gone = std::move(*job);
             jobs_.erase(job);
-            const bool others = std::ranges::any_of(jobs_, [&](const Job& other) {
-                return other.stage == Stage::kScene && other.request.scene == gone.request.scene;
-            });
-            if (gone.stage == Stage::kScene && gone.scene_asked && !others) {
-                gone.source.scenes->dismiss(gone.request.scene, weak_from_this());
-            }
+            dismissScene(gone);
             wantScenes(Clock::now(), calls);
             return;
         }
     });
+}
+
+void StillDesk::dismissScene(const Job& gone) {
+    const bool others = std::ranges::any_of(jobs_, [&](const Job& other) {
+        return other.scene_asked && other.request.scene == gone.request.scene;
+    });
+    if (gone.scene_asked && !others) {
+        gone.source.scenes->dismiss(gone.request.scene, weak_from_this());
+    }
 }
 
 void StillDesk::expire(TimePoint now) {
@@ -522,11 +529,16 @@ void StillDesk::expire(TimePoint now) {
                     given_up.push_back(seat);
                 }
             }
+            Job gone;
+            gone.request.scene = here->request.scene;
+            gone.source = here->source;
+            gone.scene_asked = here->scene_asked;
             finish(here,
                    later(RejectCode::kCapacity,
                          scene ? "the scene did not come in time" : "the device has no time for it",
                          std::chrono::seconds(10)),
                    calls);
+            dismissScene(gone);
         }
         for (const auto& seat : given_up) {
             goOn(*seat, now, calls);
@@ -539,7 +551,38 @@ void StillDesk::expire(TimePoint now) {
         }
         wantScenes(now, calls);
         drawNext(now, calls);
+        setNextAlarm(now);
     });
+}
+
+// The alarm keeps the earliest alone.
+void StillDesk::setNextAlarm(TimePoint now) const {
+    std::optional<TimePoint> next;
+    const auto isNext = [&](TimePoint due) {
+        if (due > now) {
+            next = next ? std::min(*next, due) : due;
+        }
+    };
+    const auto after = [](TimePoint at, Seconds wait) {
+        return at + std::chrono::ceil<Clock::duration>(wait);
+    };
+    for (const Job& job : jobs_) {
+        isNext(job.due);
+        if (job.scene_at) {
+            isNext(*job.scene_at);
+        }
+        if (job.scene_asked) {
+            isNext(after(*job.scene_asked, kSlowScene));
+        }
+    }
+    for (const auto& seat : seats_) {
+        if (!seat->drawing) {
+            isNext(after(seat->rests_since, limits_.linger));
+        }
+    }
+    if (next) {
+        alarm_(*next);
+    }
 }
 
 void StillDesk::close() {

@@ -9,7 +9,7 @@
 // Any thread.
 #pragma once
 
-#include "core/allowance.h"
+#include "core/allowances.h"
 #include "session/account.h"
 #include "session/scene_port.h"
 #include "session/stream_port.h"
@@ -59,10 +59,10 @@ struct StillLimits {
     size_t seats = 4;
     size_t per_account = 8; // waited for
     size_t waiting = 64;    // by all
-    // Of answers that are drawn or on their way; one alone may be larger.
+    // Of answers that are drawn or on their way; one alone may be larger. Of all_bytes an account
+    // that has less of them has its share: others' answers have to go for it (Unsent::shrinkTo).
     uint64_t account_bytes = 256 << 20U;
     uint64_t all_bytes = 1 << 30U;
-    uint64_t small_bytes = 4 << 20U; // an answer of no more is exempt from all_bytes
     // Of one account that are drawn, at most and usually; 0: as many as it asks for.
     double per_minute = 600;
     double at_once = 60;
@@ -99,7 +99,8 @@ class StillDesk final : public session::SceneWaiter,
                TimePoint now);
     // Nobody waits for it any more. It may be answered meanwhile.
     void cancel(Ticket ticket);
-    // Ends what was waited for too long, and seats that rest.
+    // Ends what was waited for too long, and seats that rest; sets off the alarm for when more is
+    // due.
     void expire(TimePoint now);
     [[nodiscard]] StillCounts counts() const;
     // Sets off no alarm from now on.
@@ -122,8 +123,8 @@ class StillDesk final : public session::SceneWaiter,
         StillRequest request;
         StillSource source;
         Stage stage = Stage::kScene;
-        bool scene_asked = false; // of the port
-        bool scene_again = false; // once, after the device had no room for it
+        std::optional<TimePoint> scene_asked; // of the port, since
+        bool scene_again = false;             // once, after the device had no room for it
         std::optional<TimePoint> scene_at;
         std::vector<Waiter> waiters;
         TimePoint due{};
@@ -158,7 +159,9 @@ class StillDesk final : public session::SceneWaiter,
     whyNot(const std::optional<session::Account>& account, bool is_new, TimePoint now);
     // Why an answer of so many bytes is not to be held as well.
     [[nodiscard]] std::optional<StillRefusal>
-    whyNotHeld(const std::optional<session::Account>& account, uint64_t bytes) const;
+    whyNotHeld(const std::optional<session::Account>& account, uint64_t bytes, TimePoint now);
+    // No job waits for this one's scene any more, unless another does.
+    void dismissScene(const Job& gone);
     void putOff(Waiter& waiter, StillRefusal refusal, Calls& calls);
     void wantScenes(TimePoint now, Calls& calls);
     void onSceneHere(Jobs::iterator job,
@@ -171,6 +174,7 @@ class StillDesk final : public session::SceneWaiter,
     // It draws no more of what it was given: it takes the next one, or rests.
     void goOn(Seat& seat, TimePoint now, Calls& calls);
     void finish(Jobs::iterator job, const StillOutcome& outcome, Calls& calls);
+    void setNextAlarm(TimePoint now) const;
     void rest(Seat& seat, TimePoint now);
     void leave(Seat& seat);
     void onDrawn(Seat& seat, session::ReadyFrame frame);
@@ -184,7 +188,7 @@ class StillDesk final : public session::SceneWaiter,
     Ticket last_ticket_ = 0;
     Jobs jobs_;
     std::vector<std::shared_ptr<Seat>> seats_;
-    std::map<session::Account, Allowance> allowances_;
+    Allowances<session::Account> allowances_;
     StillStore kept_;
     StillStore thumbnails_;
     const std::shared_ptr<Unsent> unsent_ = std::make_shared<Unsent>();

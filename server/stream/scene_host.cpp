@@ -21,6 +21,13 @@ namespace {
 // Of the thread that reads, and of those that it starts: a tenth of the weight of others'.
 constexpr int kNiceness = 10;
 
+// Of threads that read, and how many of them may read for those who are patient: there is always
+// one for a viewer.
+constexpr size_t kReaders = 4;
+constexpr size_t kPatientReaders = 2;
+// How often those who wait for their turn look again.
+constexpr std::chrono::milliseconds kLook{100};
+
 // The device is asked so often whether it is done with a slice.
 constexpr std::chrono::milliseconds kPoll{1};
 
@@ -33,12 +40,15 @@ uint64_t mib(uint64_t bytes) {
 
 } // namespace
 
-SceneHost::SceneHost(SceneHostOptions options)
-    : options_(std::move(options)), thread_([this](const std::stop_token& stop) {
-          nameThread("scenes");
-          (void)nice(kNiceness); // of this thread alone, on Linux
-          run(stop);
-      }) {}
+SceneHost::SceneHost(SceneHostOptions options) : options_(std::move(options)) {
+    for (size_t i = 0; i < kReaders; ++i) {
+        readers_.emplace_back([this](const std::stop_token& stop) {
+            nameThread("scenes");
+            (void)nice(kNiceness); // of this thread alone, on Linux
+            run(stop);
+        });
+    }
+}
 
 SceneHost::~SceneHost() {
     end();
@@ -147,10 +157,10 @@ void SceneHost::end() {
         device_ = nullptr;
         queue_.clear();
     }
-    thread_.request_stop();
-    if (thread_.joinable()) {
-        thread_.join();
+    for (std::jthread& reader : readers_) {
+        reader.request_stop();
     }
+    readers_.clear(); // each is waited for
     const std::lock_guard lock(mutex_);
     coming_.clear();
     residents_.clear();
@@ -182,7 +192,11 @@ void SceneHost::run(const std::stop_token& stop) {
             if (!queued_.wait(lock, stop, [this] { return !queue_.empty(); })) {
                 return;
             }
-            const auto next = nextToLoad();
+            const auto next = nextToLoad(Clock::now());
+            if (next == queue_.end()) {
+                queued_.wait_for(lock, stop, kLook, [] { return false; });
+                continue;
+            }
             id = std::move(*next);
             queue_.erase(next);
             Coming& coming = coming_.at(id);
@@ -191,31 +205,57 @@ void SceneHost::run(const std::stop_token& stop) {
                 continue;
             }
             coming.stage = Stage::kReading;
+            coming.read_since = Clock::now();
         }
         load(id);
+        queued_.notify_all(); // it may be another's turn
     }
 }
 
 // The first that is not waited for patiently; else the first. What nobody waits for any more goes
 // with these.
-std::deque<std::string>::iterator SceneHost::nextToLoad() {
-    const auto next = std::ranges::find_if(queue_, [this](const std::string& id) {
-        const Coming& coming = coming_.at(id);
-        return !coming.patient || !isAwaited(coming);
-    });
-    return next == queue_.end() ? queue_.begin() : next;
+std::deque<std::string>::iterator SceneHost::nextToLoad(TimePoint now) {
+    const auto gone = std::ranges::find_if(
+        queue_, [this](const std::string& id) { return !isAwaited(coming_.at(id)); });
+    if (gone != queue_.end()) {
+        return gone;
+    }
+    size_t patient = 0;
+    for (const auto& [id, coming] : coming_) {
+        if (coming.stage != Stage::kReading) {
+            continue;
+        }
+        if (now - *coming.read_since < options_.turn) {
+            return queue_.end();
+        }
+        patient += coming.patient ? 1 : 0;
+    }
+    const auto next = std::ranges::find_if(
+        queue_, [this](const std::string& id) { return !coming_.at(id).patient; });
+    return next == queue_.end() && patient < kPatientReaders ? queue_.begin() : next;
 }
 
 void SceneHost::load(const std::string& id) {
     bool wanted = true;
+    const TimePoint begun_at = Clock::now();
+    bool in_time = true;
     const auto readOn = [&](const Progress& progress) {
         report(id, {progress.stage, kReadPart * progress.fraction});
-        return wanted = isWanted(id);
+        wanted = isWanted(id);
+        in_time = Clock::now() - begun_at < options_.most_reading;
+        return wanted && in_time;
     };
     try {
         auto read = options_.read(id, readOn);
         if (!wanted || !isWanted(id)) {
             putAside(id);
+            return;
+        }
+        if (!in_time) {
+            finish(id, Error{ErrorCode::kScene,
+                             fmt::format("it is not read after {:.0f} s, and given up; right is a "
+                                         "smaller scene",
+                                         options_.most_reading.count())});
             return;
         }
         auto prepared = read ? prepare(id, std::move(*read)) : Result<void>(read.error());

@@ -1,9 +1,11 @@
 // The scenes of a server: those on the device, which all sessions share that show them, and those
 // on their way to it.
 //
-// One at a time is read on a thread of low priority and moved to the device in slices, between
-// others' frames. Where memory is short, scenes leave that nobody holds, the one asked for longest
-// ago first; the scene that the server began with stays.
+// One at a time is read, on a thread of low priority, and moved to the device in slices, between
+// others' frames. A file that takes longer than a moment no longer keeps the next ones from being
+// read beside it, and one that takes far too long is given up. Where memory is short, scenes leave
+// that nobody holds, the one asked for longest ago first; the scene that the server began with
+// stays.
 #pragma once
 
 #include "core/clock.h"
@@ -35,9 +37,13 @@ struct SceneHostOptions {
     // none: there is none. Any thread.
     std::function<std::optional<uint64_t>(const std::string& id)> offers =
         [](const std::string& /*id*/) -> std::optional<uint64_t> { return {}; };
-    // Reads one; on the host's own thread. Errors: one line for a person; any where `report` has
-    // it end early. May throw StartupError.
+    // Reads one; on one of the host's own threads. Errors: one line for a person; any where
+    // `report` has it end early. May throw StartupError.
     std::function<Result<ReadScene>(const std::string& id, const ProgressReport& report)> read;
+    // After so long the next one is read beside it ...
+    Seconds turn{5};
+    // ... and after so long, more than the largest scenes that were tried need, it is given up.
+    Seconds most_reading{300};
 };
 
 class SceneHost final : public session::ScenePort {
@@ -80,6 +86,7 @@ class SceneHost final : public session::ScenePort {
     enum class Stage : uint8_t { kQueued, kReading, kMoving };
     struct Coming {
         Stage stage = Stage::kQueued;
+        std::optional<TimePoint> read_since{}; // of kReading
         uint64_t version = 0;
         std::vector<std::weak_ptr<session::SceneWaiter>> waiters; // never held under the lock
         bool patient = true;                                      // all of them
@@ -97,7 +104,8 @@ class SceneHost final : public session::ScenePort {
     using Waiters = std::vector<std::shared_ptr<session::SceneWaiter>>;
 
     void run(const std::stop_token& stop);
-    [[nodiscard]] std::deque<std::string>::iterator nextToLoad();
+    // Under the lock: the one whose turn it is, or that nobody waits for any more; end: none yet.
+    [[nodiscard]] std::deque<std::string>::iterator nextToLoad(TimePoint now);
     // Of what comes, whose reading has begun.
     void load(const std::string& id);
     [[nodiscard]] bool isWanted(const std::string& id) const;
@@ -130,7 +138,7 @@ class SceneHost final : public session::ScenePort {
     uint64_t scene_bytes_ = 0;
     session::SharedContext first_;
     std::function<void()> wake_ = [] {};
-    std::jthread thread_; // last: ends before what it uses
+    std::vector<std::jthread> readers_; // last: they end before what they use
 };
 
 } // namespace froxel::stream

@@ -74,7 +74,7 @@ void expectSound(const net::Response& response) {
 }
 
 void answer(const net::Request& request, const net::HttpSite& site) {
-    const net::Response response = net::respond(request, site);
+    const net::Response response = net::respond(request, site, {});
     expectSound(response);
     const bool page = response[http::field::content_type].starts_with("text/html");
     if (page && response.result() == http::status::ok) {

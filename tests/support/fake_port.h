@@ -62,14 +62,15 @@ class FakePort final : public session::StreamPort {
         return sessions.at(id).sink.lock();
     }
     // A picture of 16x16 with this id, of the session's newest state.
-    void deliver(uint64_t frame_id, TimePoint now, session::SessionId id = kFirstId) {
+    void
+    deliver(uint64_t frame_id, TimePoint now, session::SessionId id = kFirstId, size_t bytes = 10) {
         session::ReadyFrame frame;
         frame.record.frame_id = frame_id;
         frame.record.applied = session(id).states.back().applied;
         frame.record.width_px = 16;
         frame.record.height_px = 16;
         frame.record.queue_us = 1000;
-        frame.bytes = std::make_shared<const std::vector<std::byte>>(10);
+        frame.bytes = std::make_shared<const std::vector<std::byte>>(bytes);
         frame.ready_at = now;
         sink(id)->deliver(std::move(frame));
     }

@@ -19,7 +19,7 @@ class HealthTest : public testing::Test {
     void serve() { service_->setServing({nullptr, &port_, heartbeat_, 30s}); }
     Response get(std::string_view path, http::verb verb = http::verb::get) {
         const Request request(verb, boost::beast::string_view(path.data(), path.size()), 11);
-        return respond(request, site_);
+        return respond(request, site_, {});
     }
     void expectNo(std::string_view path, const char* why) {
         const Response response = get(path);

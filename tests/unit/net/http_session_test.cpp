@@ -20,12 +20,17 @@ namespace {
 namespace ssl = boost::asio::ssl;
 using boost::asio::ip::tcp;
 
+ConnectionTicket oneTicket() {
+    return ConnectionTickets(1).take(boost::asio::ip::address_v4::loopback(), 1, Clock::now());
+}
+
 // Takes every upgrade, and has the service change while the connection is being handed over.
 class ChangingSite final : public HttpSite {
   public:
     [[nodiscard]] const HostNames& hostNames() const override { return any_; }
     [[nodiscard]] Response answer(const Request& /*request*/,
-                                  std::string_view /*path*/) const override {
+                                  std::string_view /*path*/,
+                                  const boost::asio::ip::address& /*peer*/) const override {
         return refusal(boost::beast::http::status::not_found, "nothing is here");
     }
     [[nodiscard]] std::optional<Response>
@@ -64,7 +69,7 @@ TEST(HttpSessionTest, ServiceThatChangesDuringAnUpgrade_IsNoConcernOfIt) {
     client.lowest_layer().connect(acceptor.local_endpoint());
     ssl::context server_tls = anonymous(ssl::context::tlsv12_server);
     const auto site = std::make_shared<ChangingSite>();
-    std::make_shared<HttpSession>(acceptor.accept(), &server_tls, site, nullptr)->start();
+    std::make_shared<HttpSession>(acceptor.accept(), &server_tls, site, oneTicket())->start();
 
     constexpr std::string_view kUpgrade = "GET /ws HTTP/1.1\r\nHost: froxel.example\r\n"
                                           "Connection: upgrade\r\nUpgrade: websocket\r\n\r\n";
@@ -81,7 +86,8 @@ class PatientSite final : public HttpSite {
   public:
     [[nodiscard]] const HostNames& hostNames() const override { return any_; }
     [[nodiscard]] Response answer(const Request& /*request*/,
-                                  std::string_view /*path*/) const override {
+                                  std::string_view /*path*/,
+                                  const boost::asio::ip::address& /*peer*/) const override {
         return textResponse(boost::beast::http::status::ok, "at once");
     }
     [[nodiscard]] std::optional<CallOff>
@@ -117,7 +123,7 @@ class LateAnswerTest : public testing::Test {
   protected:
     LateAnswerTest() {
         client_.connect(acceptor_.local_endpoint());
-        std::make_shared<HttpSession>(acceptor_.accept(), nullptr, site_, nullptr)->start();
+        std::make_shared<HttpSession>(acceptor_.accept(), nullptr, site_, oneTicket())->start();
     }
     void send(std::string_view path) {
         boost::asio::write(client_, boost::asio::buffer("GET " + std::string(path) +

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -33,6 +34,7 @@ struct PublicSiteTest : testing::Test {
         auto parts = std::make_shared<Site>();
         parts->service = service;
         parts->metrics = std::make_shared<Metrics>();
+        parts->request_limits = std::make_shared<RequestLimits>();
         parts->lobby = lobby;
         parts->connections_per_address = 5;
         parts->trusted_proxies = TrustedProxies::parse({"10.0.0.0/8"}).value();
@@ -47,7 +49,7 @@ struct PublicSiteTest : testing::Test {
 
 TEST_F(PublicSiteTest, SettingsJson_HasTheWordsOfEverySetting) {
     const Response answer =
-        site->answer(request(http::verb::get, "/settings.json"), "/settings.json");
+        site->answer(request(http::verb::get, "/settings.json"), "/settings.json", {});
     EXPECT_EQ(answer.result(), http::status::ok);
     EXPECT_EQ(answer[http::field::content_type], "application/json");
     const auto words = nlohmann::json::parse(answer.body());
@@ -88,6 +90,50 @@ TEST_F(PublicSiteTest, ManyConnections_OfOneAddressAreLimited_ButNotOfProxies) {
     EXPECT_GT(most("10.1.2.3"), 1'000'000U);
 }
 
+TEST_F(PublicSiteTest, ManyRequests_OfOneAddressHaveToWait_ButNotOnThisMachine) {
+    const Request asked = request(http::verb::get, "/");
+    const auto wait = [&](const char* peer) {
+        return site->waitOf(asked, boost::asio::ip::make_address(peer)).count();
+    };
+    double most = 0;
+    for (int i = 0; i < 2 * static_cast<int>(RequestLimits::kAtOnce); ++i) {
+        most = std::max(most, wait("192.0.2.7"));
+        EXPECT_EQ(wait("127.0.0.1"), 0);
+    }
+    EXPECT_GT(most, 0);
+    EXPECT_EQ(wait("192.0.2.8"), 0) << "another's";
+}
+
+TEST(RequestLimits, WrongTokens_AreWaitedForSooner) {
+    RequestLimits limits;
+    const session::Account guesser{"192.0.2.7"};
+    const TimePoint now{};
+    int guesses = 0;
+    while (limits.ask(guesser, now) == Seconds(0)) {
+        limits.onWrongToken(guesser, now);
+        ++guesses;
+    }
+    EXPECT_LT(guesses, 50);
+    const Seconds wait = limits.ask(guesser, now);
+    EXPECT_GT(wait.count(), 0);
+    EXPECT_EQ(limits.ask(guesser, now + std::chrono::seconds(1)), Seconds(0));
+}
+
+TEST_F(PublicSiteTest, PagesOfOtherSites_HaveNothingDrawn) {
+    Request still = request(http::verb::get, "/render?scene=x");
+    still.set(http::field::host, "localhost:8080");
+    still.set("Sec-Fetch-Site", "cross-site");
+    still.set("Sec-Fetch-Mode", "no-cors");
+    still.set("Sec-Fetch-Dest", "image");
+    std::optional<LateAnswer> answer;
+    const auto call_off = site->answerLater(still, "/render", boost::asio::ip::address(),
+                                            [&](LateAnswer came) { answer = std::move(came); });
+    EXPECT_TRUE(call_off);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->response.result(), http::status::forbidden);
+    EXPECT_EQ(site->answer(still, "/api/v1/scenes", {}).result(), http::status::forbidden);
+}
+
 TEST(AdminSite, TakeControl_ByPostOfARoomsName_AndOfNoBrowser) {
     std::vector<std::string> asked;
     AdminHooks hooks;
@@ -97,7 +143,7 @@ TEST(AdminSite, TakeControl_ByPostOfARoomsName_AndOfNoBrowser) {
     };
     const AdminSite site(std::make_shared<Metrics>(), std::make_shared<Service>(), hooks);
     const auto post = [&](std::string_view target) {
-        return respond(request(http::verb::post, target), site).result();
+        return respond(request(http::verb::post, target), site, {}).result();
     };
     EXPECT_EQ(post("/rooms/hall/take-control"), http::status::ok);
     EXPECT_EQ(post("/rooms/cellar/take-control"), http::status::not_found);
@@ -108,7 +154,7 @@ TEST(AdminSite, TakeControl_ByPostOfARoomsName_AndOfNoBrowser) {
     }
     Request foreign = request(http::verb::post, "/rooms/hall/take-control");
     foreign.set(http::field::origin, "https://evil.example");
-    EXPECT_EQ(respond(foreign, site).result(), http::status::forbidden);
+    EXPECT_EQ(respond(foreign, site, {}).result(), http::status::forbidden);
     EXPECT_EQ(asked.size(), 2U);
 }
 
@@ -119,13 +165,13 @@ TEST(PathOf, Query_IsCutOff) {
 }
 
 TEST_F(PublicSiteTest, PageIsNotBuilt_SaysHowToBuildIt) {
-    const auto response = respond(request(http::verb::get, "/"), *site);
+    const auto response = respond(request(http::verb::get, "/"), *site, {});
     EXPECT_EQ(response.result(), http::status::not_found);
     EXPECT_NE(response.body().find("build.sh"), std::string::npos);
 }
 
 TEST_F(PublicSiteTest, Health_FollowsTheService) {
-    const auto health = [&] { return respond(request(http::verb::get, "/healthz"), *site); };
+    const auto health = [&] { return respond(request(http::verb::get, "/healthz"), *site, {}); };
     EXPECT_EQ(health().body(), R"({"status":"loading"})");
     service->setServing({});
     EXPECT_EQ(health().body(), R"({"status":"serving"})");
@@ -134,7 +180,7 @@ TEST_F(PublicSiteTest, Health_FollowsTheService) {
 }
 
 TEST_F(PublicSiteTest, Metrics_AreElsewhereAndItSaysWhere) {
-    const auto response = respond(request(http::verb::get, "/metrics"), *site);
+    const auto response = respond(request(http::verb::get, "/metrics"), *site, {});
     EXPECT_EQ(response.result(), http::status::not_found);
     EXPECT_NE(response.body().find("--admin-bind"), std::string::npos) << response.body();
     EXPECT_EQ(response.body().find("froxel_"), std::string::npos);
@@ -144,12 +190,13 @@ TEST(AdminSite, Metrics_AreTheMetrics_AnythingElseIsNotFound) {
     auto metrics = std::make_shared<Metrics>();
     metrics->sessionOpened();
     const AdminSite site(metrics, std::make_shared<Service>(), {});
-    const auto response = respond(request(http::verb::get, "/metrics?x=1"), site);
+    const auto response = respond(request(http::verb::get, "/metrics?x=1"), site, {});
     EXPECT_EQ(response.result(), http::status::ok);
     EXPECT_EQ(response[http::field::content_type], Metrics::kContentType);
     EXPECT_NE(response.body().find("\nfroxel_viewers 1\n"), std::string::npos);
     for (const char* target : {"/", "/healthz", "/ws", "/metrics/", "//metrics", "/index.html"}) {
-        EXPECT_EQ(respond(request(http::verb::get, target), site).result(), http::status::not_found)
+        EXPECT_EQ(respond(request(http::verb::get, target), site, {}).result(),
+                  http::status::not_found)
             << target;
     }
 }
@@ -198,7 +245,7 @@ struct AdminDrain : testing::Test {
         post.set(http::field::authorization, authorization);
         const AdminSite site(std::make_shared<Metrics>(), std::make_shared<Service>(),
                              {[] { return true; }, [this] { ++drained; }}, std::move(access));
-        return respond(post, site).result();
+        return respond(post, site, {}).result();
     }
     int drained = 0;
 };
@@ -239,8 +286,8 @@ TEST_F(PublicSiteTest, EveryAnswer_HasTheSecurityHeaders) {
             << target;
     };
     for (const char* target : {"/", "/healthz", "/metrics", "/ws", "/nothing"}) {
-        expectHeaders(respond(request(http::verb::get, target), *site), target);
-        expectHeaders(respond(request(http::verb::get, target), admin), target);
+        expectHeaders(respond(request(http::verb::get, target), *site, {}), target);
+        expectHeaders(respond(request(http::verb::get, target), admin, {}), target);
     }
 }
 

@@ -62,5 +62,30 @@ TEST(OriginAllowed, Listed_IsAllowedExactly) {
     EXPECT_FALSE(originAllowed("https://gallery.example:444", "host", false, listed));
 }
 
+TEST(FetchOf, ByFetchMetadataAndThePagesOrigin) {
+    const std::vector<std::string> allowed = {"https://gallery.example"};
+    const auto of = [&](const FetchedBy& by) { return fetchOf(by, "froxel.example", allowed); };
+    EXPECT_EQ(of({}), Fetch::kOwn) << "a program";
+    EXPECT_EQ(of({.site = "same-origin"}), Fetch::kOwn);
+    EXPECT_EQ(of({.site = "none"}), Fetch::kOwn) << "an address that a person has entered";
+    EXPECT_EQ(of({.site = "cross-site", .mode = "navigate", .dest = "document"}), Fetch::kOwn)
+        << "a link that a person follows";
+    EXPECT_EQ(of({.site = "cross-site", .mode = "navigate", .dest = "iframe"}), Fetch::kForeign);
+    EXPECT_EQ(of({.site = "cross-site", .mode = "no-cors", .dest = "image"}), Fetch::kForeign);
+    EXPECT_EQ(of({.site = "same-site", .mode = "no-cors", .referer = "http://froxel.example:81/"}),
+              Fetch::kForeign)
+        << "another port of this host";
+    EXPECT_EQ(of({.site = "cross-site", .referer = "https://gallery.example/all?x#y"}),
+              Fetch::kAllowed);
+    EXPECT_EQ(of({.site = "cross-site", .origin = "https://gallery.example"}), Fetch::kAllowed);
+    EXPECT_EQ(of({.site = "cross-site",
+                  .origin = "https://evil.example",
+                  .referer = "https://gallery.example/"}),
+              Fetch::kForeign);
+    EXPECT_EQ(of({.site = "cross-site", .referer = "about:blank"}), Fetch::kForeign);
+    EXPECT_EQ(of({.origin = "http://froxel.example"}), Fetch::kOwn) << "an old browser";
+    EXPECT_EQ(of({.origin = "null"}), Fetch::kForeign);
+}
+
 } // namespace
 } // namespace froxel::net

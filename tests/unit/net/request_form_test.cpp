@@ -66,5 +66,16 @@ TEST(RequestForm, OtherTargets_StayOrAreRefused) {
     }
 }
 
+TEST(SettleForm, AnyTransferEncoding_IsRefused) {
+    for (const char* coding : {"chunked", "gzip", "identity", "x, chunked"}) {
+        Request request;
+        request.target("/");
+        request.set(boost::beast::http::field::transfer_encoding, coding);
+        const auto settled = settleForm(request);
+        ASSERT_FALSE(settled) << coding;
+        EXPECT_EQ(settled.error().code, ErrorCode::kUnsupported);
+    }
+}
+
 } // namespace
 } // namespace froxel::net

@@ -102,8 +102,8 @@ class StillDeskTest : public testing::Test {
             kNow);
         return asked;
     }
-    void deliver(uint64_t seat = 0) {
-        port_.deliver(++last_frame_, kNow, test::FakePort::kFirstId + seat);
+    void deliver(uint64_t seat = 0, size_t bytes = 10) {
+        port_.deliver(++last_frame_, kNow, test::FakePort::kFirstId + seat, bytes);
     }
 
     test::FakePort port_;
@@ -337,7 +337,7 @@ TEST_F(StillDeskTest, OneAccount_HasSoManyBytesOnTheirWay) {
 }
 
 TEST_F(StillDeskTest, All_HaveSoManyBytesOnTheirWay_ButOneAloneMayBeLarger) {
-    desk_ = makeDesk({.account_bytes = 12'287, .all_bytes = 12'287, .small_bytes = 12'287});
+    desk_ = makeDesk({.account_bytes = 12'287, .all_bytes = 12'287});
     const Asked first = ask("a");
     EXPECT_FALSE(first.answered());
     const Asked other = ask("b", "", session::Account{"198.51.100.1"});
@@ -346,7 +346,7 @@ TEST_F(StillDeskTest, All_HaveSoManyBytesOnTheirWay_ButOneAloneMayBeLarger) {
     const Asked same = ask("a", "", session::Account{"198.51.100.1"});
     EXPECT_EQ(same.refusal().why.code, session::RejectCode::kCapacity);
     const Asked small = ask("c", "", session::Account{"198.51.100.1"}, "32x32");
-    EXPECT_FALSE(small.answered()) << "a small one is exempt";
+    EXPECT_EQ(small.refusal().why.code, session::RejectCode::kCapacity) << "there is one bound";
     deliver();
     EXPECT_TRUE(first.drawn());
 }
@@ -383,6 +383,50 @@ TEST_F(StillDeskTest, LostDevice_AnswersAll) {
     port_.sink()->deviceLost({ErrorCode::kDevice, "the device was lost"});
     EXPECT_EQ(one.refusal().why.message, "the device was lost");
     EXPECT_TRUE(other.answered());
+}
+
+TEST_F(StillDeskTest, SceneThatDidNotComeInTime_IsDismissed) {
+    const Asked asked = ask("a", "scene1");
+    EXPECT_EQ(scenes_.waiters.size(), 1U);
+    desk_->expire(kNow + 61s);
+    EXPECT_THAT(asked.refusal().why.message, HasSubstr("did not come in time"));
+    EXPECT_TRUE(scenes_.waiters.empty()) << "its reader would go on for nobody";
+}
+
+TEST_F(StillDeskTest, SlowScene_KeepsNoOtherFromBeingAskedFor) {
+    (void)ask("a", "scene1");
+    (void)ask("b", "scene2");
+    EXPECT_EQ(scenes_.wanted, std::vector<std::string>{"scene1"});
+    desk_->expire(kNow + 6s);
+    EXPECT_EQ(scenes_.wanted, (std::vector<std::string>{"scene1", "scene2"}));
+}
+
+TEST_F(StillDeskTest, Alarm_IsSetAnewForWhatIsDueLater) {
+    std::vector<TimePoint> alarms;
+    desk_->setAlarm([&](TimePoint due) { alarms.push_back(due); });
+    (void)ask("a", "scene1");
+    alarms.clear();
+    desk_->expire(kNow + 10s);
+    ASSERT_FALSE(alarms.empty());
+    EXPECT_EQ(alarms.back(), kNow + 60s);
+}
+
+// Many who do not read must not keep others from a picture.
+TEST_F(StillDeskTest, AnswersNobodyReads_GiveWayToThoseOfWhoHasFewer) {
+    desk_ = makeDesk({.account_bytes = 1 << 20U, .all_bytes = 32'000});
+    const Asked one = ask("a");
+    deliver(0, 10'000);
+    const Asked two = ask("b");
+    deliver(0, 10'000);
+    ASSERT_TRUE(one.drawn() && two.drawn());
+    size_t closed = 0;
+    for (const Asked& asked : {one, two}) {
+        Unsent::sending(
+            std::get<SharedBytes>(asked.outcome->value()), [&] { ++closed; }, kNow - 5s);
+    }
+    const Asked other = ask("c", "", session::Account{"198.51.100.1"}); // 12 KiB while it is drawn
+    EXPECT_FALSE(other.answered()) << "it is being drawn";
+    EXPECT_EQ(closed, 1U);
 }
 
 } // namespace

@@ -42,5 +42,31 @@ TEST(Unsent, KeepsTheBytes_ThoughWhoMadeThemLetsGo) {
     EXPECT_TRUE(there.expired());
 }
 
+TEST(Unsent, WhoHasMost_GivesWayFirst_OnceItsClientHadTimeToRead) {
+    using namespace std::chrono_literals;
+    const auto unsent = std::make_shared<Unsent>();
+    const session::Account greedy{"192.0.2.7"};
+    const session::Account modest{"198.51.100.1"};
+    std::vector<int> closed;
+    std::vector<SharedBytes> held;
+    const TimePoint now{};
+    for (int i = 0; i < 3; ++i) {
+        held.push_back(unsent->hold(zeros(10), greedy));
+        Unsent::sending(
+            held.back(), [&closed, i] { closed.push_back(i); }, now);
+    }
+    held.push_back(unsent->hold(zeros(8), modest));
+    EXPECT_FALSE(unsent->shrinkTo(30, 8, now + 1s)) << "they may be on their way";
+    EXPECT_FALSE(unsent->shrinkTo(30, 30, now + 2s)) << "it has no more than who asks";
+    EXPECT_TRUE(unsent->shrinkTo(30, 8, now + 2s));
+    EXPECT_EQ(closed, std::vector<int>{0});
+    EXPECT_EQ(unsent->of(greedy), 20U) << "at once, though it is let go later";
+    held.erase(held.begin());
+    EXPECT_EQ(unsent->all(), 28U);
+    held.clear();
+    EXPECT_EQ(unsent->all(), 0U);
+    EXPECT_EQ(closed.size(), 1U);
+}
+
 } // namespace
 } // namespace froxel::still

@@ -60,7 +60,7 @@ class SceneHostTest : public RenderLoopTest {
         options.read = [this](const std::string& id,
                               const ProgressReport& report) -> Result<ReadScene> {
             ++begun_reads_;
-            if (!passReading(report)) {
+            if (!passReading(id, report)) {
                 ++called_off_;
                 while (linger_) {
                     std::this_thread::yield();
@@ -79,6 +79,8 @@ class SceneHostTest : public RenderLoopTest {
             context.scene.triangle_count = 12;
             return ReadScene{std::move(scene), std::move(context)};
         };
+        options.turn = turn_;
+        options.most_reading = most_reading_;
         host_ = std::make_shared<SceneHost>(std::move(options));
         RenderLoopOptions loop;
         loop.min_frame_interval = Seconds(0);
@@ -109,14 +111,14 @@ class SceneHostTest : public RenderLoopTest {
         gate_open_ = open;
         gate_.notify_all();
     }
-    bool passReading(const ProgressReport& report) {
+    bool passReading(const std::string& id, const ProgressReport& report) {
         std::unique_lock lock(gate_mutex_);
         do {
             if (!report({"reading", 0.1})) {
                 return false;
             }
-        } while (
-            !gate_.wait_for(lock, std::chrono::milliseconds(1), [this] { return gate_open_; }));
+        } while (!gate_.wait_for(lock, std::chrono::milliseconds(1),
+                                 [&] { return gate_open_ || (!slow_.empty() && id != slow_); }));
         return true;
     }
     // Null and a failure of the test where it does not come.
@@ -156,6 +158,9 @@ class SceneHostTest : public RenderLoopTest {
     std::mutex gate_mutex_;
     std::condition_variable gate_;
     bool gate_open_ = true;
+    std::string slow_; // while closed, this one alone; none: all
+    Seconds turn_{60};
+    Seconds most_reading_{60};
     uint64_t state_version_ = 100;
     SharedContext first_;
     std::promise<void> begun_;
@@ -255,6 +260,33 @@ TEST_F(SceneHostTest, PatientWaiter_IsServedLast) {
     setReading(true);
     EXPECT_TRUE(comes([&] { return host_->counts().loaded_total == 3; }));
     EXPECT_EQ(read_ids_, "acb");
+}
+
+TEST_F(SceneHostTest, SlowFile_KeepsNoOtherFromBeingRead) {
+    turn_ = Seconds(0.01);
+    slow_ = "a";
+    begin();
+    setReading(false);
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", waiter));
+    EXPECT_TRUE(load("b"));
+    EXPECT_TRUE(load("c"));
+    EXPECT_FALSE(waiter->heard());
+    setReading(true);
+    EXPECT_TRUE(waiter->outcome().value());
+}
+
+TEST_F(SceneHostTest, FileThatTakesFarTooLong_IsGivenUp) {
+    most_reading_ = Seconds(0.05);
+    begin();
+    setReading(false);
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", waiter));
+    const auto outcome = waiter->outcome();
+    ASSERT_TRUE(outcome);
+    ASSERT_FALSE(*outcome);
+    EXPECT_EQ(outcome->error().code, ErrorCode::kScene);
+    EXPECT_THAT(outcome->error().message, HasSubstr("given up"));
 }
 
 TEST_F(SceneHostTest, UnknownScene_IsRefused) {
