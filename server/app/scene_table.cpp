@@ -54,7 +54,7 @@ std::string cell(const Json& row, std::string_view column) {
 Json scenesReport(const std::filesystem::path& folder) {
     Json rows = Json::array();
     const auto listing = catalogue::Catalogue({}, folder).listing();
-    for (const auto& file : listing->scenes) {
+    for (const auto& file : listing->scenes()) {
         rows.push_back(rowOf(file));
     }
     return rows;

@@ -109,7 +109,7 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
             return true;
         });
         if (options_.catalogue) {
-            opened.context.scene_id = options_.catalogue->listing()->scenes.front().id;
+            opened.context.scene_id = options_.catalogue->listing()->scenes().front().id;
         }
         auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
         if (scenes_) {

@@ -103,9 +103,26 @@ std::optional<Offered> offerFile(const fs::path& file, const fs::path& folder) {
                    hashOf(fmt::format("{} {}", bytes, changed.time_since_epoch().count()))};
 }
 
+Listing::Listing(uint64_t generation, std::vector<Offered> scenes)
+    : generation_(generation), scenes_(std::move(scenes)) {
+    for (size_t i = 0; i < scenes_.size(); ++i) {
+        places_.emplace(scenes_[i].id, i);
+    }
+}
+
+std::optional<size_t> Listing::placeOf(std::string_view id) const {
+    const auto found = places_.find(id);
+    return found == places_.end() ? std::nullopt : std::optional(found->second);
+}
+
+const Offered* Listing::find(std::string_view id) const {
+    const auto place = placeOf(id);
+    return place ? &scenes_[*place] : nullptr;
+}
+
 Catalogue::Catalogue(std::vector<Offered> always, fs::path folder)
     : always_(std::move(always)), folder_(std::move(folder)),
-      listing_(std::make_shared<const Listing>(Listing{1, always_})) {
+      listing_(std::make_shared<const Listing>(1, always_)) {
     rescan();
 }
 
@@ -125,11 +142,10 @@ void Catalogue::rescan() {
         }
     }
     const std::lock_guard lock(mutex_);
-    if (!std::ranges::equal(scenes, listing_->scenes, equal)) {
+    if (!std::ranges::equal(scenes, listing_->scenes(), equal)) {
         spdlog::info("event=scenes_listed folder={} count={}", logValue(folder_.string()),
                      scenes.size());
-        listing_ =
-            std::make_shared<const Listing>(Listing{listing_->generation + 1, std::move(scenes)});
+        listing_ = std::make_shared<const Listing>(listing_->generation() + 1, std::move(scenes));
     }
 }
 
@@ -140,8 +156,8 @@ std::shared_ptr<const Listing> Catalogue::listing() const {
 
 std::optional<Offered> Catalogue::find(const std::string& id) const {
     const auto listed = listing();
-    const auto found = std::ranges::find(listed->scenes, id, &Offered::id);
-    return found == listed->scenes.end() ? std::nullopt : std::optional(*found);
+    const Offered* found = listed->find(id);
+    return found == nullptr ? std::nullopt : std::optional(*found);
 }
 
 } // namespace froxel::catalogue

@@ -8,6 +8,8 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace froxel::catalogue {
@@ -22,9 +24,25 @@ struct Offered {
     uint64_t version = 0;   // another one where size or time of the file are others
 };
 
-struct Listing {
-    uint64_t generation = 1;     // grows with every change
-    std::vector<Offered> scenes; // those in any case, then by path
+// Never changes.
+class Listing {
+  public:
+    Listing(uint64_t generation, std::vector<Offered> scenes);
+    Listing(const Listing&) = delete;
+    Listing& operator=(const Listing&) = delete;
+
+    [[nodiscard]] uint64_t generation() const { return generation_; } // grows with every change
+    // Those in any case, then by path.
+    [[nodiscard]] const std::vector<Offered>& scenes() const { return scenes_; }
+    // Its place among them.
+    [[nodiscard]] std::optional<size_t> placeOf(std::string_view id) const;
+    // Null: it is not offered.
+    [[nodiscard]] const Offered* find(std::string_view id) const;
+
+  private:
+    uint64_t generation_;
+    std::vector<Offered> scenes_;
+    std::unordered_map<std::string_view, size_t> places_; // by the scenes' own ids
 };
 
 class Catalogue {

@@ -182,9 +182,10 @@ void checkMinimum(const Json& root) {
 
 void checkArrays(const Json& root) {
     for (const auto& [key, value] : root.items()) {
-        if (value.is_array() && value.size() > kMaxElements) {
+        const size_t most = key == "materials" ? kMaxMaterials : kMaxElements;
+        if (value.is_array() && value.size() > most) {
             fail("/" + printable(key) + " has " + std::to_string(value.size()) +
-                 " elements; at most " + std::to_string(kMaxElements) + " are supported");
+                 " elements; at most " + std::to_string(most) + " are supported");
         }
     }
     for (const Required& rule : kRequired) {

@@ -42,13 +42,12 @@ Json jsonOf(const session::SceneContents& contents) {
             {"animations", contents.animations}};
 }
 
-Json rowOf(const catalogue::Offered& scene, const session::ScenePort* port) {
+Json jsonOf(const catalogue::Offered& scene, const session::SceneReport& report) {
     const std::filesystem::path source(scene.source);
     std::string kind = scene.source == "builtin" ? "builtin" : source.extension().string();
     if (kind.starts_with('.')) {
         kind.erase(0, 1);
     }
-    const auto report = port != nullptr ? port->reportOf(scene.id) : session::SceneReport();
     Json row{
         {"id", scene.id},
         {"name", scene.name},
@@ -101,14 +100,13 @@ std::variant<Page, Response> pageIn(const Request& request, const catalogue::Lis
             }
             page.limit = *limit;
         } else if (said.key == "after") {
-            const auto found =
-                std::ranges::find(listing.scenes, said.value, &catalogue::Offered::id);
-            if (found == listing.scenes.end()) {
+            const auto place = listing.placeOf(said.value);
+            if (!place) {
                 return refused(http::status::bad_request, "out_of_range", "after",
                                "after is \"" + printable(said.value) +
                                    "\", which is no scene of this server");
             }
-            page.begin = static_cast<size_t>(found - listing.scenes.begin()) + 1;
+            page.begin = *place + 1;
         }
     }
     return page;
@@ -137,26 +135,51 @@ Response SceneListing::answer(const Request& request, std::string_view path) con
     const auto listing = catalogue_->listing();
     if (path != kScenesPath) {
         const std::string id(path.substr(kScenesPath.size() + 1));
-        const auto scene = catalogue_->find(id);
-        return scene ? withTag(request, textOf(rowOf(*scene, port)))
-                     : refused(http::status::not_found, "out_of_range", "scene",
-                               "\"" + printable(id) + "\" is no scene of this server");
+        const auto place = listing->placeOf(id);
+        if (!place) {
+            return refused(http::status::not_found, "out_of_range", "scene",
+                           "\"" + printable(id) + "\" is no scene of this server");
+        }
+        const std::lock_guard lock(mutex_);
+        return withTag(request, rowOf(*listing, *place, port));
     }
     auto asked = pageIn(request, *listing);
     if (auto* error = std::get_if<Response>(&asked)) {
         return std::move(*error);
     }
     const auto& [begin, limit] = std::get<Page>(asked);
-    const size_t end = std::min(listing->scenes.size(), begin + limit);
-    Json rows = Json::array();
-    for (size_t i = begin; i < end; ++i) {
-        rows.push_back(rowOf(listing->scenes[i], port));
+    const auto& scenes = listing->scenes();
+    const size_t end = std::min(scenes.size(), begin + limit);
+    std::string body = R"({"scenes":[)"; // and JSON texts one after another
+    {
+        const std::lock_guard lock(mutex_);
+        for (size_t i = begin; i < end; ++i) {
+            body += i > begin ? "," : "";
+            body += rowOf(*listing, i, port);
+        }
     }
-    Json body{{"scenes", std::move(rows)}};
-    if (end < listing->scenes.size()) {
-        body["next"] = listing->scenes[end - 1].id; // as `after`
+    body += end < scenes.size() // as `after`
+                ? R"(],"next":)" + textOf(Json(scenes[end - 1].id)) + "}"
+                : "]}";
+    return withTag(request, body);
+}
+
+const std::string& SceneListing::rowOf(const catalogue::Listing& listing,
+                                       size_t place,
+                                       const session::ScenePort* port) const {
+    if (generation_ != listing.generation()) {
+        generation_ = listing.generation();
+        rows_.assign(listing.scenes().size(), {});
     }
-    return withTag(request, textOf(body));
+    const catalogue::Offered& scene = listing.scenes()[place];
+    const auto report = port != nullptr ? port->reportOf(scene.id) : session::SceneReport();
+    Row& row = rows_[place];
+    const bool same = row.standing == report.standing && row.contents == report.contents &&
+                      report.standing != session::SceneStanding::kLoading;
+    if (row.text.empty() || !same) {
+        row = {report.standing, report.contents, textOf(jsonOf(scene, report))};
+    }
+    return row.text;
 }
 
 } // namespace froxel::net

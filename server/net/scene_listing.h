@@ -6,8 +6,13 @@
 #include "net/http_site.h"
 #include "net/service.h"
 
+#include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace froxel::net {
 
@@ -29,8 +34,21 @@ class SceneListing {
     [[nodiscard]] Response answer(const Request& request, std::string_view path) const;
 
   private:
+    // A scene's row as it was told last: making it takes as long as a hundred of sending it.
+    struct Row {
+        session::SceneStanding standing = session::SceneStanding::kUnknown;
+        std::optional<session::SceneContents> contents;
+        std::string text; // JSON; empty: not told yet
+    };
+    // Under the lock.
+    [[nodiscard]] const std::string&
+    rowOf(const catalogue::Listing& listing, size_t place, const session::ScenePort* port) const;
+
     const std::shared_ptr<const catalogue::Catalogue> catalogue_;
     const std::shared_ptr<const Service> service_;
+    mutable std::mutex mutex_;
+    mutable uint64_t generation_ = 0; // of the listing that the rows are of
+    mutable std::vector<Row> rows_;
 };
 
 } // namespace froxel::net

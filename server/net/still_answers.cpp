@@ -109,7 +109,7 @@ bool StillAnswers::has(std::string_view path) {
 // Without a catalogue nobody knows of what file a server was started.
 std::string StillAnswers::sceneTag(const std::string& scene) const {
     const auto offered = !catalogue_     ? std::nullopt
-                         : scene.empty() ? std::optional(catalogue_->listing()->scenes.front())
+                         : scene.empty() ? std::optional(catalogue_->listing()->scenes().front())
                                          : catalogue_->find(scene);
     return offered ? offered->id + " " + numberText(offered->version) : run_;
 }

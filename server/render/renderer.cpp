@@ -8,6 +8,7 @@
 #include "render/refusals.h"
 #include "render/scene/scene_resources.h"
 #include "render/visibility_readback.h"
+#include "scene/motion.h"
 
 #include <array>
 #include <cstring>
@@ -56,19 +57,59 @@ uint64_t Renderer::bytes() const {
     return resources_->memory.bytes();
 }
 
-uint64_t sceneBytes(const scene::Scene& scene) {
-    constexpr uint64_t kVertexBytes = 12 + 20; // position, surface
+namespace {
+
+// Of what moves vertices, and of the joints of all meshes that have a skin.
+uint64_t motionBytes(const scene::Motion& motion) {
     uint64_t bytes = 0;
-    for (const scene::Mesh& mesh : scene.meshes) {
-        for (const scene::Primitive& primitive : mesh.primitives) {
-            bytes += kVertexBytes * primitive.positions.size() +
-                     sizeof(uint32_t) * primitive.indices.size();
+    for (const scene::DeformedMesh& mesh : motion.deformed) {
+        for (const scene::Deformation& of : mesh.deformations) {
+            bytes += of.influences.size() * sizeof(scene::Influence) +
+                     of.deltas.size() * sizeof(scene::MorphDelta) +
+                     (of.first_influence.size() + of.first_delta.size()) * sizeof(uint32_t);
         }
+        bytes += mesh.skin == scene::kNone
+                     ? 0
+                     : motion.skins[mesh.skin].joints.size() * 2 * sizeof(glm::mat4);
     }
+    return bytes;
+}
+
+} // namespace
+
+uint64_t sceneBytes(const scene::Scene& scene) {
+    constexpr uint64_t kVertexBytes = 12 + 20;   // position, surface
+    constexpr uint64_t kExtendedBytes = 16;      // second coordinates, colour, tangent
+    constexpr uint64_t kTrianglesOfMeshlet = 64; // at least, but for a primitive's last one
+    constexpr uint64_t kMeshletBytes = 64;       // and 8 wherever it is placed
+    constexpr uint64_t kItemBytes = 128;         // a primitive where it is placed
+    constexpr uint64_t kMaterialBytes = 4096;    // with its set of descriptors
+    uint64_t bytes = kMaterialBytes * scene.materials.size();
+    std::vector<uint64_t> placed_bytes; // of each mesh, wherever it is
+    for (const scene::Mesh& mesh : scene.meshes) {
+        uint64_t placed = sizeof(glm::dmat4) + sizeof(io::InstanceView);
+        for (const scene::Primitive& primitive : mesh.primitives) {
+            const bool extended =
+                !primitive.uv1.empty() || !primitive.colors.empty() || !primitive.tangents.empty();
+            const uint64_t meshlets = primitive.indices.size() / 3 / kTrianglesOfMeshlet + 1;
+            bytes += (kVertexBytes + (extended ? kExtendedBytes : 0)) * primitive.positions.size() +
+                     sizeof(uint32_t) * primitive.indices.size() + kMeshletBytes * meshlets;
+            placed += kItemBytes + 8 * meshlets;
+        }
+        placed_bytes.push_back(placed);
+    }
+    for (const scene::Instance& instance : scene.instances) {
+        bytes += placed_bytes[instance.mesh];
+    }
+    bytes += scene.motion ? motionBytes(*scene.motion) : 0;
     for (const scene::Image& image : scene.images) { // with its levels
         bytes += uint64_t{4} * image.width_px * image.height_px * 4 / 3;
     }
     return bytes;
+}
+
+Error noMemoryForScene(const std::string& whose) {
+    return {ErrorCode::kCapacity, "the " + whose + " has no memory for another scene"};
 }
 
 struct SceneUpload::Impl {
@@ -96,6 +137,10 @@ Result<std::unique_ptr<Renderer>> SceneUpload::advance() {
         if (!impl_->uploader.advance(impl_->shared.timeline)) {
             return std::unique_ptr<Renderer>();
         }
+    } catch (const vk::OutOfDeviceMemoryError&) {
+        return noMemoryForScene("device");
+    } catch (const vk::OutOfHostMemoryError&) {
+        return noMemoryForScene("host");
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice, std::string("the device failed: ") + error.what()};
     }

@@ -87,8 +87,11 @@ class Renderer {
     std::unique_ptr<SceneResources> resources_;
 };
 
-// What a scene will take of the device's memory, about: its geometry and its textures.
+// What a scene will take of memory once it is on the device, about: geometry, textures, materials,
+// and what the host keeps of its instances, meshlets and what moves them.
 [[nodiscard]] uint64_t sceneBytes(const scene::Scene& scene);
+// kCapacity, where the device's memory or the host's is not enough for a scene.
+[[nodiscard]] Error noMemoryForScene(const std::string& whose);
 
 // A scene on its way to a device that draws others meanwhile.
 class SceneUpload {

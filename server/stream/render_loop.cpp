@@ -225,6 +225,7 @@ void RenderLoop::readNews() {
             entry = std::make_unique<Viewer>(news, std::move(pipeline));
             entry->refinement.onChange(news.arrived);
             if (news.account) {
+                watched_ = true;
                 scheduler_.add(news.id, *news.account);
             } else {
                 scheduler_.addBeside(news.id);
@@ -245,7 +246,6 @@ void RenderLoop::takeNews(const std::stop_token& stop) {
     readNews();
     const TimePoint now = Clock::now();
     refine_at_.reset();
-    const bool had_viewers = !viewers_.empty();
     for (auto entry = viewers_.begin(); entry != viewers_.end();) {
         Viewer& viewer = *entry->second;
         chargeEncoding(entry->first, viewer); // the last picture's as well
@@ -261,7 +261,8 @@ void RenderLoop::takeNews(const std::stop_token& stop) {
             ++entry;
         }
     }
-    if (had_viewers && viewers_.empty()) {
+    if (watched_ && viewers_.empty()) {
+        watched_ = false;
         // Shaders are compiled in pieces of all sizes, whose holes the heap keeps: a third of
         // resident memory after a while. It takes some tenths of a second; nobody waits for it now.
         malloc_trim(0);

@@ -156,7 +156,8 @@ class RenderLoop final : public session::StreamPort {
     TimePoint accounted_{};            // until then this thread's time is charged
     TimePoint collected_{};            // the last piece
     std::optional<settings::ViewSettings> newcomers_frame_;
-    std::jthread thread_; // last: ends before what it uses
+    bool watched_ = false; // by a session since there was none
+    std::jthread thread_;  // last: ends before what it uses
 };
 
 } // namespace froxel::stream

@@ -208,9 +208,9 @@ class RendererSource final : public FrameSource {
         } catch (const StartupError& error) {
             return Error{error.code(), error.what()};
         } catch (const vk::OutOfDeviceMemoryError&) {
-            return noMemoryForScene("device");
+            return render::noMemoryForScene("device");
         } catch (const vk::OutOfHostMemoryError&) {
-            return noMemoryForScene("host");
+            return render::noMemoryForScene("host");
         }
     }
 
@@ -226,9 +226,6 @@ class RendererSource final : public FrameSource {
     [[nodiscard]] static render::WorkLimits limitsOf(const gpu::Device& device, Seconds frame) {
         return device.traits().is_cpu ? render::WorkLimits{frame, kCpuPiece, kCpuLoop, kHostPart}
                                       : render::WorkLimits{frame, kGpuPiece, kGpuLoop, kHostPart};
-    }
-    [[nodiscard]] static Error noMemoryForScene(const std::string& whose) {
-        return {ErrorCode::kCapacity, "the " + whose + " has no memory for another scene"};
     }
 
     std::unique_ptr<gpu::Device> device_;

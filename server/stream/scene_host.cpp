@@ -31,6 +31,9 @@ constexpr std::chrono::milliseconds kLook{100};
 // The device is asked so often whether it is done with a slice.
 constexpr std::chrono::milliseconds kPoll{1};
 
+// More than a catalogue has (catalogue::Catalogue::kMostScenes).
+constexpr size_t kContentsMost = 16'384;
+
 // What reading takes of the whole, for progress.
 constexpr double kReadPart = 0.5;
 
@@ -303,7 +306,7 @@ Result<void> SceneHost::prepare(const std::string& id, ReadScene read) {
             return room;
         }
         coming.bytes = bytes;
-        contents_[id] = {coming.version, session::contentsOf(read.context.scene)};
+        keepContents(id, {coming.version, session::contentsOf(read.context.scene)});
         read.context.scene_id = id;
         read.context.scene_number = ++last_number_;
     }
@@ -319,6 +322,16 @@ Result<void> SceneHost::prepare(const std::string& id, ReadScene read) {
     coming.stage = Stage::kMoving;
     wake_();
     return {};
+}
+
+// Folders change: what is not offered any more is forgotten, lest names fill memory.
+void SceneHost::keepContents(const std::string& id, Contents contents) {
+    if (contents_.size() >= kContentsMost) {
+        std::erase_if(contents_, [&](const auto& known) { return !options_.offers(known.first); });
+    }
+    if (contents_.size() < kContentsMost || contents_.contains(id)) {
+        contents_[id] = std::move(contents);
+    }
 }
 
 uint64_t SceneHost::bytesTaken() const {
@@ -475,7 +488,17 @@ void SceneHost::advance(const std::string& id, SceneMove& move) {
     const double before = move.fraction();
     auto source = move.advance();
     if (!source) {
-        throw StartupError(source.error());
+        if (source.error().code != ErrorCode::kCapacity) {
+            throw StartupError(source.error());
+        }
+        std::unique_ptr<SceneMove> given_up; // ends outside of the lock
+        {
+            const std::lock_guard lock(mutex_);
+            given_up = std::move(coming_.at(id).move);
+        }
+        given_up.reset();
+        finish(id, source.error());
+        return;
     }
     if (*source) {
         settle(id, std::move(*source));

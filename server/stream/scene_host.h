@@ -113,6 +113,7 @@ class SceneHost final : public session::ScenePort {
     [[nodiscard]] Result<void> prepare(const std::string& id, ReadScene read);
     // Under the lock: has scenes leave for so many more bytes. Errors: kCapacity.
     [[nodiscard]] Result<void> makeRoom(uint64_t bytes, const std::string& name);
+    void keepContents(const std::string& id, Contents contents);
     [[nodiscard]] uint64_t bytesTaken() const;
     [[nodiscard]] static bool isHeld(const Resident& resident);
     // Under the lock.

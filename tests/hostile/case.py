@@ -43,6 +43,8 @@ class Case:
     seconds: float = 3  # beside the hostile ones; as long alone, but no longer than ALONE_S
     serve: tuple = ()  # options of froxel serve
     scenes: bool = False  # whether it has a folder of scenes, as made by fill()
+    files: int = 0  # so many small files of scenes instead
+    token: str = ""  # that the server asks for; the honest viewer has it
     room: str = ""  # that the honest viewer is in; it came first
     needs: tuple = ()  # what the hostile viewers must have heard, lest it be no attack
     newcomer: bool = False  # whether another honest viewer comes at the end: newcomer_s
@@ -89,17 +91,19 @@ class Arena:
     """What a hostile viewer knows: the server's URL, the binary, and which of its kind it is."""
 
     url: str
+    admin_port: int
     froxel: str
     index: int
     heard: collections.Counter
+    address: str = HOSTILE
 
     def viewer(self, **hello):
         return Viewer(self.url, HOSTILE, self.heard, **hello)
 
-    async def connect(self):
-        """(reader, writer) of a connection that has said nothing yet."""
-        host, port = self.url.split("/")[2].rsplit(":", 1)
-        return await asyncio.open_connection(host, int(port), local_addr=(HOSTILE, 0))
+    async def connect(self, address=HOSTILE, port=None):
+        """(reader, writer) of a connection that has said nothing yet, from this address; to the viewers' port."""
+        host, viewers_port = self.url.split("/")[2].rsplit(":", 1)
+        return await asyncio.open_connection(host, port or int(viewers_port), local_addr=(address, 0))
 
     @contextlib.asynccontextmanager
     async def asking(self, path):
@@ -128,14 +132,14 @@ async def attack_for_ever(attack, arena):
         await asyncio.sleep(COMES_BACK_S)
 
 
-def play_hostile(name, url, froxel, ready, begin, pipe):
+def play_hostile(name, url, admin_port, froxel, ready, begin, pipe):
     """In a process of its own, so that it does not slow the honest viewer's clock."""
     load_cases()
     case = CASES[name]
     heard = collections.Counter()
 
     async def play():
-        arenas = (Arena(url, froxel, index, heard) for index in range(case.clients))
+        arenas = (Arena(url, admin_port, froxel, index, heard) for index in range(case.clients))
         tasks = [asyncio.create_task(attack_for_ever(case.attack, arena)) for arena in arenas]
         over = asyncio.get_running_loop().run_in_executor(None, pipe.recv)
         done, _ = await asyncio.wait([over, *tasks], return_when=asyncio.FIRST_COMPLETED)
@@ -192,12 +196,12 @@ class Memory:
             await asyncio.sleep(0.5)
 
 
-async def newcomer(url):
+async def newcomer(url, token):
     """Seconds until an honest viewer that comes now has its first picture; it tries again and again."""
     begin = time.monotonic()
     while time.monotonic() < begin + NEVER:
         try:
-            async with Victim(url, NEWCOMER) as viewer:
+            async with Victim(url, NEWCOMER, token=token) as viewer:
                 while (await viewer.hear())[0] != "frame":
                     pass
                 return time.monotonic() - begin
@@ -207,7 +211,7 @@ async def newcomer(url):
 
 
 async def measure(case, server, begin, fellow, alone):
-    async with Victim(server.url, HONEST, room=case.room) as victim, Memory(server) as memory:
+    async with Victim(server.url, HONEST, room=case.room, token=case.token) as victim, Memory(server) as memory:
         running = asyncio.create_task(victim.run())
         await asyncio.sleep(0)
         while len(victim.frames) < SETTLED_FRAMES and not running.done():
@@ -219,7 +223,7 @@ async def measure(case, server, begin, fellow, alone):
             await asyncio.wait([running], timeout=seconds)
             times.append(time.monotonic())
             heard.append(collections.Counter(victim.heard))
-        joined = {"newcomer_s": await newcomer(server.url)} if case.newcomer else {}
+        joined = {"newcomer_s": await newcomer(server.url, case.token)} if case.newcomer else {}
         if running.done():
             await running  # raises what ended it
         running.cancel()
@@ -257,9 +261,18 @@ def served(case, froxel, options):
     """The server that a case is played with."""
     options = ["--drain-seconds", "1", *served_with(options, case.serve)]
     with tempfile.TemporaryDirectory() as folder:
+        scenes = Path(folder) / "scenes"
+        scenes.mkdir()
         if case.scenes:
-            fill(Path(folder), froxel)
-            options += ["--scenes", folder]
+            fill(scenes, froxel)
+        for number in range(case.files):
+            (scenes / f"{number:05}.gltf").write_text('{"asset": {"version": "2.0"}}')
+        if case.scenes or case.files:
+            options += ["--scenes", str(scenes)]
+        if case.token:
+            tokens = Path(folder) / "tokens"
+            tokens.write_text(case.token + "\n")
+            options += ["--token-file", str(tokens)]
         with Server(froxel, *options) as server:
             yield server
 
@@ -272,8 +285,9 @@ def play(case, froxel, options, slack, alone):
     ours, theirs = spawn.Pipe()
     figures, wrong = {}, []
     with served(case, froxel, options) as server:
+        admin_port = int(server.metrics_url.split("/")[2].rsplit(":", 1)[1])
         fellow = spawn.Process(target=play_hostile,
-                               args=(case.name, server.url, froxel, ready, begin, theirs), daemon=True)
+                               args=(case.name, server.url, admin_port, froxel, ready, begin, theirs), daemon=True)
         fellow.start()
         ready.wait(30)
         try:

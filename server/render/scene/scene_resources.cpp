@@ -1,6 +1,7 @@
 #include "render/scene/scene_resources.h"
 
 #include "core/error.h"
+#include "core/text.h"
 #include "gpu/pipeline.h"
 #include "interface/frame_io.h"
 #include "interface/visibility_io.h"
@@ -155,9 +156,9 @@ SceneResources::SceneResources(DeviceResources& shared_in,
     uploadGeometry(std::move(geometry), uploader);
     uploadMaterials(scene, uploader);
     undressed_ = std::make_shared<Dressing>(*this, std::move(items));
-    spdlog::info("scene name=\"{}\" items={} meshlets={} images={} device_bytes={}", scene.name,
-                 undressed_->items.size(), meshlets.size(), textures_->imageCount(),
-                 arena.allocatedBytes() + texture_arena.allocatedBytes());
+    spdlog::info("event=scene_packed scene={} items={} meshlets={} images={} device_bytes={}",
+                 logValue(scene.name), undressed_->items.size(), meshlets.size(),
+                 textures_->imageCount(), arena.allocatedBytes() + texture_arena.allocatedBytes());
 }
 
 void SceneResources::settle() {

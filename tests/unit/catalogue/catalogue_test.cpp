@@ -30,7 +30,7 @@ class CatalogueTest : public testing::Test {
     }
     static std::vector<std::string> paths(const Catalogue& catalogue) {
         std::vector<std::string> found;
-        for (const Offered& scene : catalogue.listing()->scenes) {
+        for (const Offered& scene : catalogue.listing()->scenes()) {
             found.push_back(scene.path);
         }
         return found;
@@ -47,7 +47,7 @@ TEST_F(CatalogueTest, SceneFilesBelowTheFolder_AreOfferedByPath) {
     write("a.gltf.txt");
     const Catalogue catalogue({}, folder_);
     ASSERT_THAT(paths(catalogue), ElementsAre("A.GLB", "a.gltf", "b/Fox.glb"));
-    const Offered fox = catalogue.listing()->scenes[2];
+    const Offered fox = catalogue.listing()->scenes()[2];
     EXPECT_EQ(fox.name, "Fox");
     EXPECT_EQ(fox.bytes, 5U);
     EXPECT_EQ(fs::path(fox.source), fs::canonical(folder_ / "b/Fox.glb"));
@@ -66,10 +66,10 @@ TEST_F(CatalogueTest, WhatIsHiddenOrLeadsOutOfTheFolder_IsNotOffered) {
     fs::create_symlink(folder_ / "scene.glb", folder_ / "also.glb");
     const Catalogue catalogue({}, folder_);
     fs::remove(outside);
-    for (const Offered& scene : catalogue.listing()->scenes) {
+    for (const Offered& scene : catalogue.listing()->scenes()) {
         EXPECT_EQ(scene.path, "scene.glb");
     }
-    EXPECT_EQ(catalogue.listing()->scenes.size(), 1U);
+    EXPECT_EQ(catalogue.listing()->scenes().size(), 1U);
 }
 
 TEST_F(CatalogueTest, FoldersDeeperThanTheLimit_AreNotEntered) {
@@ -79,7 +79,7 @@ TEST_F(CatalogueTest, FoldersDeeperThanTheLimit_AreNotEntered) {
         deep /= "d";
     }
     write(deep / "scene.glb");
-    EXPECT_EQ(Catalogue({}, folder_).listing()->scenes.size(), Catalogue::kDeepest + 1U);
+    EXPECT_EQ(Catalogue({}, folder_).listing()->scenes().size(), Catalogue::kDeepest + 1U);
 }
 
 TEST_F(CatalogueTest, Rescan_FindsWhatIsNewChangedAndGone) {
@@ -88,15 +88,15 @@ TEST_F(CatalogueTest, Rescan_FindsWhatIsNewChangedAndGone) {
     Catalogue catalogue({}, folder_);
     const auto before = catalogue.listing();
     catalogue.rescan();
-    EXPECT_EQ(catalogue.listing()->generation, before->generation);
+    EXPECT_EQ(catalogue.listing()->generation(), before->generation());
 
     fs::remove(goes);
     write("new.glb");
     fs::last_write_time(stays, fs::last_write_time(stays) + std::chrono::seconds(5));
     catalogue.rescan();
-    EXPECT_GT(catalogue.listing()->generation, before->generation);
+    EXPECT_GT(catalogue.listing()->generation(), before->generation());
     EXPECT_THAT(paths(catalogue), ElementsAre("new.glb", "stays.glb"));
-    const Offered old = before->scenes[1];
+    const Offered old = before->scenes()[1];
     ASSERT_EQ(old.path, "stays.glb");
     const auto now = catalogue.find(old.id);
     ASSERT_TRUE(now);
