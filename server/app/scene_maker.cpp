@@ -65,8 +65,8 @@ std::vector<session::OfferedLook> SceneMaker::looksOf(const std::string& source,
 Result<stream::ReadScene> SceneMaker::make(const std::string& source,
                                            const SceneChoices& choices,
                                            const ProgressReport& report,
-                                           uint64_t memory_bytes) const {
-    auto loaded = loadScene(source, choices, report, memory_bytes);
+                                           const gltf::LoadLimits& limits) const {
+    auto loaded = loadScene(source, choices, report, limits);
     if (!loaded) {
         return loaded.error();
     }

@@ -4,10 +4,10 @@
 
 #include "app/serve_command.h"
 #include "core/progress.h"
+#include "gltf/gltf_loader.h"
 #include "gpu/device.h"
 #include "stream/scene_host.h"
 
-#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -23,7 +23,7 @@ class SceneMaker {
     [[nodiscard]] Result<stream::ReadScene> make(const std::string& source,
                                                  const SceneChoices& choices,
                                                  const ProgressReport& report,
-                                                 uint64_t memory_bytes) const;
+                                                 const gltf::LoadLimits& limits) const;
 
   private:
     [[nodiscard]] session::SessionDefaults defaultsOf(const std::string& source,

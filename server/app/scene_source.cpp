@@ -82,8 +82,8 @@ Result<void> chooseMaterialVariant(const std::string& wanted, scene::Scene& scen
 Result<scene::Scene> loadScene(const std::string& source,
                                const SceneChoices& choices,
                                const ProgressReport& report,
-                               uint64_t memory_bytes) {
-    auto scene = source == kBuiltin ? makeHall(report) : gltf::load(source, report, {memory_bytes});
+                               const gltf::LoadLimits& limits) {
+    auto scene = source == kBuiltin ? makeHall(report) : gltf::load(source, report, limits);
     if (!scene) {
         return scene;
     }

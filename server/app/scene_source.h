@@ -5,6 +5,7 @@
 #include "app/setting_options.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "gltf/gltf_loader.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -20,12 +21,13 @@ struct SceneChoices {
 
 // `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. Cameras that
 // move stand where the animation begins. Errors with one line: kScene; kInvalidArgument where there
-// is no such animation or variant; kCancelled where `report` has it end. `memory_bytes`: that
-// reading may take.
+// is no such animation or variant; kCancelled where `report` has it end. `limits`: of
+// reading a file.
 [[nodiscard]] Result<scene::Scene> loadScene(const std::string& source,
                                              const SceneChoices& choices = {},
                                              const ProgressReport& report = workOn,
-                                             uint64_t memory_bytes = readMemoryBytes());
+                                             const gltf::LoadLimits& limits = {
+                                                 .memory_bytes = readMemoryBytes()});
 
 // The settings of a view of it where nobody has asked for others: those given stay, the rest goes
 // by the scene (scene::lookFor()) and `look`, if there is one. The built-in scene begins with the

@@ -69,7 +69,8 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
         return report({progress.stage, 0.1 + 0.5 * progress.fraction});
     };
     stream::ReadScene first =
-        maker->make(options.scene, options.choices, reading, readMemoryBytes()).value();
+        maker->make(options.scene, options.choices, reading, {.memory_bytes = readMemoryBytes()})
+            .value();
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(first.context.scene.name), first.context.scene.triangle_count,
                  first.context.scene.draw_count, first.context.scene.cameras.size());
@@ -91,7 +92,7 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
         std::move(memory),
         Seconds(limit_s),
         [maker, scene_bytes](const catalogue::Offered& offered, const ProgressReport& report_on) {
-            return maker->make(offered.source, {}, report_on, readMemoryBytes(scene_bytes));
+            return maker->make(offered.source, {}, report_on, {readMemoryBytes(scene_bytes), true});
         },
         scene_bytes};
 }
@@ -255,7 +256,8 @@ int runServe(const ServeOptions& options) {
     mallopt(M_ARENA_MAX, 2);
     // Large blocks (pictures, targets of a CPU device, scenes, answers) are mapped and go back to
     // the system when they are freed. The threshold that grows by itself, up to 32 MiB, leaves them
-    // among small ones: 450 MB of holes after five minutes of tests/load/soak_busy.py, 60 with this.
+    // among small ones: 450 MB of holes after five minutes of tests/load/soak_busy.py, 60 with
+    // this.
     mallopt(M_MMAP_THRESHOLD, 256 * 1024);
     raiseDescriptorLimit(options.connections_max);
     const Secrets secrets(options);

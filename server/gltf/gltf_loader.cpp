@@ -27,7 +27,7 @@ load(const std::filesystem::path& file, const ProgressReport& report, const Load
         LoadProgress progress(report);
         ReadMemory memory(limits.memory_bytes);
         progress.reading(0);
-        SceneFolder folder(file, progress, memory);
+        SceneFolder folder(file, limits.no_link, progress, memory);
         const Document document = readDocument(folder, memory, warnings);
         scene::Scene scene = buildScene(document, folder, progress, memory, warnings);
         scene.name = file.stem().string();

@@ -11,10 +11,13 @@
 
 namespace froxel::gltf {
 
-// How much memory reading may take: what a file says it needs is held against it before it is
+// What reading may take and do. What a file says it needs is held against its memory before it is
 // allocated, so that a file of a few bytes cannot have the process killed.
 struct LoadLimits {
     uint64_t memory_bytes = std::numeric_limits<uint64_t>::max();
+    // The scene's file must be where its path, which is canonical, says: it was looked at before,
+    // and may have become a link that leads elsewhere.
+    bool no_link = false;
 };
 
 // The default scene of the file, validated; Scene::warnings says what was left out. Trusts nothing

@@ -43,8 +43,17 @@ std::string reason(int error) {
     return std::generic_category().message(error);
 }
 
+// Whether a file is where its canonical path says, which may have become a link since that was
+// made; so where the system does not tell.
+bool isAt(int descriptor, const fs::path& canonical) {
+    std::error_code unknown;
+    const fs::path real = fs::read_symlink("/proc/self/fd/" + std::to_string(descriptor), unknown);
+    return unknown || real == canonical;
+}
+
 // NONBLOCK: opening a pipe must not wait for its writer.
 Bytes readFile(const fs::path& path,
+               bool canonical,
                const std::string& user,
                Budget& budget,
                LoadProgress& progress) {
@@ -52,6 +61,9 @@ Bytes readFile(const fs::path& path,
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.get() < 0) {
         fail(user + " cannot open " + shown + ": " + reason(errno));
+    }
+    if (canonical && !isAt(file.get(), path)) {
+        fail(user + " names " + shown + ", where a link was put meanwhile; right is a file there");
     }
     struct stat status {};
     if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
@@ -159,8 +171,11 @@ fs::path relativePathFromUri(const std::string& uri, const std::string& user) {
     return path;
 }
 
-SceneFolder::SceneFolder(const fs::path& scene_file, LoadProgress& progress, ReadMemory& memory)
-    : scene_file_(scene_file), progress_(progress),
+SceneFolder::SceneFolder(const fs::path& scene_file,
+                         bool no_link,
+                         LoadProgress& progress,
+                         ReadMemory& memory)
+    : scene_file_(scene_file), no_link_(no_link), progress_(progress),
       bytes_("bytes of files", kMaxFileBytes, 1, memory) {
     std::error_code error;
     const fs::path parent = scene_file.has_parent_path() ? scene_file.parent_path() : ".";
@@ -172,11 +187,11 @@ SceneFolder::SceneFolder(const fs::path& scene_file, LoadProgress& progress, Rea
 }
 
 Bytes SceneFolder::readSceneFile() {
-    return readIn(scene_file_, "the scene");
+    return readIn(scene_file_, no_link_, "the scene");
 }
 
-Bytes SceneFolder::readIn(const fs::path& path, const std::string& user) {
-    Bytes bytes = readFile(path, user, bytes_, progress_);
+Bytes SceneFolder::readIn(const fs::path& path, bool canonical, const std::string& user) {
+    Bytes bytes = readFile(path, canonical, user, bytes_, progress_);
     file_bytes_ += bytes.size();
     return bytes;
 }
@@ -200,7 +215,7 @@ Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
                                           "', a link that leaves the scene's folder; right is a "
                                           "file inside it");
     }
-    return readIn(target, user);
+    return readIn(target, true, user);
 }
 
 } // namespace froxel::gltf

@@ -21,7 +21,9 @@ using Bytes = std::vector<std::byte>;
 
 class SceneFolder {
   public:
+    // `no_link`: as LoadLimits has it.
     SceneFolder(const std::filesystem::path& scene_file,
+                bool no_link,
                 LoadProgress& progress,
                 ReadMemory& memory);
 
@@ -37,9 +39,11 @@ class SceneFolder {
     [[nodiscard]] uint64_t fileBytes() const { return file_bytes_; }
 
   private:
-    [[nodiscard]] Bytes readIn(const std::filesystem::path& path, const std::string& user);
+    [[nodiscard]] Bytes
+    readIn(const std::filesystem::path& path, bool canonical, const std::string& user);
 
     std::filesystem::path scene_file_;
+    bool no_link_;
     std::filesystem::path folder_; // canonical
     LoadProgress& progress_;
     Budget bytes_;

@@ -244,31 +244,55 @@ void LightRig::evaluate(const settings::Lights& settings,
                         const settings::Camera& camera,
                         double time_s,
                         FrameLights& out) const {
-    out.lights.resize(settings.count);
-    out.radii_m.assign(settings.count, settings.radius_m);
+    static_cast<void>(Evaluation(*this, settings, camera, time_s, out).advance(settings.count));
+}
+
+LightRig::Evaluation::Evaluation(const LightRig& rig,
+                                 settings::Lights settings,
+                                 const settings::Camera& camera,
+                                 double time_s,
+                                 FrameLights& out)
+    : rig_(rig), settings_(std::move(settings)), camera_(camera), time_s_(time_s),
+      space_(rig.seededSpace(settings_)), out_(out) {
+    out.lights.resize(settings_.count);
+    out.radii_m.assign(settings_.count, settings_.radius_m);
     out.spots.clear();
     out.cones.clear();
     out.areas.clear();
     out.directionals.clear();
-    out.nearest_m = nearestDistance(scene_bounds_world_);
-    out.banded_radius_m = mostBandedRadius(scene_bounds_world_);
-    fillSeededLights(settings, camera, seededSpace(settings), time_s, out.lights);
-    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
-    eachSeededStandIn(settings, [&](uint32_t index, const scene::PunctualLight& light) {
-        putLocal(light, camera, view_from_world, index, out);
+    out.nearest_m = nearestDistance(rig.scene_bounds_world_);
+    out.banded_radius_m = mostBandedRadius(rig.scene_bounds_world_);
+}
+
+bool LightRig::Evaluation::advance(uint32_t count) {
+    const uint32_t end = done_ + std::min(count, settings_.count - done_);
+    fillSeededLights(settings_, camera_, space_, time_s_, done_, end, out_.lights);
+    done_ = end;
+    if (done_ < settings_.count) {
+        return false;
+    }
+    finish();
+    return true;
+}
+
+// What is not seeded.
+void LightRig::Evaluation::finish() {
+    const glm::dmat3 view_from_world = glm::transpose(camera_.world_from_view);
+    eachSeededStandIn(settings_, [&](uint32_t index, const scene::PunctualLight& light) {
+        putLocal(light, camera_, view_from_world, index, out_);
     });
-    eachFixed(settings, [&](const scene::PunctualLight& light) {
+    rig_.eachFixed(settings_, [&](const scene::PunctualLight& light) {
         if (light.type == scene::LightType::kDirectional) {
-            addDirectional(light, view_from_world, out);
+            addDirectional(light, view_from_world, out_);
             return;
         }
-        const auto index = static_cast<uint32_t>(out.lights.size());
-        out.lights.emplace_back();
-        out.radii_m.emplace_back();
-        putLocal(light, camera, view_from_world, index, out);
+        const auto index = static_cast<uint32_t>(out_.lights.size());
+        out_.lights.emplace_back();
+        out_.radii_m.emplace_back();
+        putLocal(light, camera_, view_from_world, index, out_);
     });
-    if (settings.cutoff > 0) {
-        cutLights(out, static_cast<double>(settings.cutoff), settings.cutoff_compensated);
+    if (settings_.cutoff > 0) {
+        cutLights(out_, static_cast<double>(settings_.cutoff), settings_.cutoff_compensated);
     }
 }
 

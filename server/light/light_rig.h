@@ -42,6 +42,29 @@ class LightRig {
                   double time_s,
                   FrameLights& out) const;
 
+    // The same in parts. `rig` and `out` outlive it, and are left alone meanwhile.
+    class Evaluation {
+      public:
+        Evaluation(const LightRig& rig,
+                   settings::Lights settings,
+                   const settings::Camera& camera,
+                   double time_s,
+                   FrameLights& out);
+        // Does so many of the seeded lights more; whether all is done.
+        [[nodiscard]] bool advance(uint32_t count);
+
+      private:
+        void finish();
+
+        const LightRig& rig_;
+        const settings::Lights settings_;
+        const settings::Camera camera_;
+        const double time_s_;
+        const SeededSpace space_;
+        FrameLights& out_;
+        uint32_t done_ = 0;
+    };
+
     // Where the local light of an index of FrameLights::lights is, whatever the camera. `index` is
     // below their number.
     struct Place {

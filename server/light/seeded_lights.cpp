@@ -245,12 +245,16 @@ void fillSeededLights(const settings::Lights& settings,
                       const settings::Camera& camera,
                       const SeededSpace& space,
                       double time_s,
+                      size_t begin,
+                      size_t end,
                       std::span<io::Light> out) {
     const SeededFrame frame = seededFrame(settings, camera, space, time_s);
     const ShaderLights lights{out, inverseRadius2(static_cast<double>(settings.radius_m))};
-    onThreads(
-        out.size(), threadCount(out.size(), kLightsPerThread),
-        [&](size_t /*part*/, size_t begin, size_t end) { fillRange(frame, begin, end, lights); });
+    const size_t count = end - begin;
+    onThreads(count, threadCount(count, kLightsPerThread),
+              [&](size_t /*part*/, size_t first, size_t last) {
+                  fillRange(frame, begin + first, begin + last, lights);
+              });
 }
 
 std::vector<SeededLight>

@@ -20,12 +20,12 @@ struct SeededSpace {
     std::shared_ptr<const std::vector<LightPlace>> places = nullptr;
 };
 
-// Fills `out` (element i is light i of the seed), many lights by several threads: each light is its
-// own formula, so how many does not matter. On every axis a light runs to and fro through the
-// box at a constant speed, a triangle wave with a uniform phase: the density is uniform at every
-// time, and no light leaves the box. Overall speeds are 0.2 to 1.5 m/s of the clock. At a place the
-// box has a side of 0.3 of the lights' radius, its middle is 0.25 of it off the surface, and speeds
-// are a quarter.
+// Fills `out` from `begin` to `end` (element i is light i of the seed), many lights by several
+// threads: each light is its own formula, so how many does not matter. On every axis a light runs
+// to and fro through the box at a constant speed, a triangle wave with a uniform phase: the density
+// is uniform at every time, and no light leaves the box. Overall speeds are 0.2 to 1.5 m/s of the
+// clock. At a place the box has a side of 0.3 of the lights' radius, its middle is 0.25 of it off
+// the surface, and speeds are a quarter.
 //
 // The wave's argument is phase + rate * clock in double, less its nearest whole number: exact but
 // for the product's rounding, 2^-53 of its size. At 1e9 s, 1.5 m/s and a 10 m box that is 1e-8 of a
@@ -34,6 +34,8 @@ void fillSeededLights(const settings::Lights& settings,
                       const settings::Camera& camera,
                       const SeededSpace& space,
                       double time_s,
+                      size_t begin,
+                      size_t end,
                       std::span<io::Light> out);
 
 // The same lights in world space, before they are rounded.

@@ -189,6 +189,7 @@ void FrameBuilder::start(const FrameInputs& inputs, bool in_parts) {
     visibility_ = choosesVisibility(inputs_);
     compute_raster_ = visibility_ && choosesComputeRaster(inputs_);
     startCulling();
+    evaluation_.reset();
     stage_ = Stage::kLights;
 }
 
@@ -221,8 +222,7 @@ void FrameBuilder::advance(ViewEffects& effects) {
     // Whatever throws ends what was begun.
     switch (*std::exchange(stage_, std::nullopt)) {
     case Stage::kLights:
-        evaluateLights();
-        stage_ = Stage::kGrid;
+        stage_ = evaluateMore() ? Stage::kGrid : Stage::kLights;
         break;
     case Stage::kGrid:
         chooseGrid();
@@ -263,14 +263,27 @@ const light::FrameLights& FrameBuilder::reach() const {
     return storesHalves(inputs_.settings) ? grown_ : lights_;
 }
 
-void FrameBuilder::evaluateLights() {
+bool FrameBuilder::evaluateMore() {
+    constexpr uint32_t kLightsOfAStage = 100'000;
+    if (!evaluation_) {
+        beginLights();
+    }
+    const bool done = evaluation_->advance(in_parts_ ? kLightsOfAStage : UINT32_MAX);
+    if (done) {
+        evaluation_.reset();
+    }
+    return done;
+}
+
+void FrameBuilder::beginLights() {
     settings::Lights lights = inputs_.settings.lights;
     if (!needsLights(inputs_.settings.debug.view)) {
         lights.count = 0;
         lights.scene_lights = false;
         lights.placed = {};
     }
-    pose_.lightRig().evaluate(lights, inputs_.settings.camera, inputs_.time_s, lights_);
+    evaluation_.emplace(pose_.lightRig(), std::move(lights), inputs_.settings.camera,
+                        inputs_.time_s, lights_);
 }
 
 void FrameBuilder::chooseGrid() {

@@ -111,7 +111,9 @@ class FrameBuilder {
     [[nodiscard]] uint64_t wireLines(const FramePlan& plan) const;
     [[nodiscard]] const cluster::GridCosts& gridCosts(const settings::ViewSettings& settings) const;
     void startCulling();
-    void evaluateLights();
+    // Whether the frame's lights are all there.
+    [[nodiscard]] bool evaluateMore();
+    void beginLights();
     void chooseGrid();
     [[nodiscard]] uint64_t entriesOfAStage() const;
     // Fills the lists, or empties them: whether they are whole.
@@ -138,7 +140,8 @@ class FrameBuilder {
 
     SceneResources& scene_;
     ScenePose pose_;
-    FrameInputs inputs_; // of what is built
+    FrameInputs inputs_;                                    // of what is built
+    std::optional<light::LightRig::Evaluation> evaluation_; // begun
     bool in_parts_ = false;
     std::optional<Stage> stage_;          // none: nothing is
     std::optional<cluster::ListCap> cap_; // under way

@@ -178,7 +178,7 @@ TEST(HostileWork, MeshoptView_ThatItsBytesCannotHold_IsRefused) {
 
 Result<scene::Scene> loadWithin(uint64_t bytes, const std::string& text) {
     const TempFolder folder;
-    return load(folder.write("scene.gltf", text), workOn, {.memory_bytes = bytes});
+    return load(folder.write("scene.gltf", text), workOn, {bytes, false});
 }
 
 TEST(HostileWork, ReadMemory_IsHeldAgainstWhatTheFileSays) {
@@ -200,6 +200,16 @@ TEST(HostileWork, JsonOfManyValues_IsRefusedBeforeItIsKept) {
     }
     EXPECT_THAT(failure(loadWithin(64U << 20U, text + "[]]}")),
                 HasSubstr("the JSON text needs 1 MiB of memory after 64; there are 64 to read"));
+}
+
+TEST(HostileWork, FileThatBecameALink_IsNotFollowed) {
+    const TempFolder folder;
+    const TempFolder elsewhere;
+    const auto there = elsewhere.write("scene.gltf", SceneFile().json.dump());
+    const auto path = std::filesystem::canonical(folder.path()) / "scene.gltf";
+    std::filesystem::create_symlink(there, path);
+    EXPECT_THAT(failure(load(path, workOn, {1U << 30U, true})),
+                HasSubstr("where a link was put meanwhile"));
 }
 
 } // namespace

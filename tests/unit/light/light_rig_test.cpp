@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace froxel::light {
@@ -290,6 +291,33 @@ TEST(LightRig, ReusedBuffers_HoldNothingOfTheFrameBefore) {
     EXPECT_EQ(lights.radii_m.size(), 6U);
     EXPECT_EQ(lights.spots.size(), 1U);
     EXPECT_EQ(lights.directionals.size(), 1U);
+}
+
+TEST(LightRig, EvaluationInParts_IsTheWhole) {
+    scene::Scene scene;
+    scene.bounds_world = {{-5, 0, -5}, {5, 3, 5}};
+    scene::PunctualLight sun;
+    sun.type = scene::LightType::kDirectional;
+    scene.lights = {sun, scene::PunctualLight()};
+    const LightRig rig(scene);
+    settings::Lights settings;
+    settings.count = 1000;
+    settings.scene_lights = true;
+    settings.cutoff = 0.01F;
+    FrameLights whole;
+    rig.evaluate(settings, {}, 2.5, whole);
+    FrameLights parts;
+    LightRig::Evaluation evaluation(rig, settings, {}, 2.5, parts);
+    int steps = 1;
+    while (!evaluation.advance(300)) {
+        ++steps;
+    }
+    EXPECT_EQ(steps, 4);
+    ASSERT_EQ(parts.lights.size(), whole.lights.size());
+    EXPECT_EQ(0, std::memcmp(parts.lights.data(), whole.lights.data(),
+                             whole.lights.size() * sizeof(io::Light)));
+    EXPECT_EQ(parts.radii_m, whole.radii_m);
+    EXPECT_EQ(parts.directionals.size(), 1U);
 }
 
 } // namespace

@@ -26,7 +26,7 @@ std::vector<io::Light> lightsAt(const settings::Lights& settings,
                                 const settings::Camera& camera = {},
                                 const BoundsD3& box = kBox) {
     std::vector<io::Light> lights(settings.count);
-    fillSeededLights(settings, camera, {box}, time_s, lights);
+    fillSeededLights(settings, camera, {box}, time_s, 0, lights.size(), lights);
     return lights;
 }
 
