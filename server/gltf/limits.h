@@ -22,7 +22,7 @@ namespace froxel::gltf {
 
 inline constexpr uint64_t kMaxJsonBytes = 128ULL << 20U;
 inline constexpr int kMaxJsonDepth = 64;
-inline constexpr size_t kMaxElements = 1ULL << 20U;                    // nodes, meshes, ...
+inline constexpr size_t kMaxElements = 1ULL << 20U; // nodes, meshes, ...
 inline constexpr size_t kMaxMaterials = 1ULL << 16U;
 inline constexpr uint64_t kMaxPrimitives = limitOf(1ULL << 20U);       // that are read
 inline constexpr uint64_t kMaxPlacedPrimitives = limitOf(1ULL << 22U); // of all instances

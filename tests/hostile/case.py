@@ -5,6 +5,7 @@ import collections
 import contextlib
 import dataclasses
 import importlib.util
+import json
 import multiprocessing
 import os
 import re
@@ -44,6 +45,7 @@ class Case:
     serve: tuple = ()  # options of froxel serve
     scenes: bool = False  # whether it has a folder of scenes, as made by fill()
     files: int = 0  # so many small files of scenes instead
+    slow_files: int = 0  # besides: so many that take seconds to read
     token: str = ""  # that the server asks for; the honest viewer has it
     room: str = ""  # that the honest viewer is in; it came first
     needs: tuple = ()  # what the hostile viewers must have heard, lest it be no attack
@@ -256,6 +258,15 @@ def fill(folder, froxel):
     (folder / "broken.glb").write_bytes(hall.read_bytes()[:100_000])
 
 
+def slow_file():
+    """Three million vertices without data, in triangles without normals."""
+    count = 3_000_000
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "accessors": [{"componentType": 5126, "type": kind, "count": count} for kind in ("VEC3", "VEC2", "VEC4")],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1, "COLOR_0": 2}}]}]})
+
+
 @contextlib.contextmanager
 def served(case, froxel, options):
     """The server that a case is played with."""
@@ -267,6 +278,8 @@ def served(case, froxel, options):
             fill(scenes, froxel)
         for number in range(case.files):
             (scenes / f"{number:05}.gltf").write_text('{"asset": {"version": "2.0"}}')
+        for number in range(case.slow_files):
+            (scenes / f"slow{number}.gltf").write_text(slow_file())
         if case.scenes or case.files:
             options += ["--scenes", str(scenes)]
         if case.token:

@@ -78,3 +78,29 @@ async def stills_given_up(arena):
             await asyncio.wait_for(ask(view), 0.02)
         except asyncio.TimeoutError:
             arena.heard["given up"] += 1
+
+
+@case(clients=8, seconds=10, scenes=True, slow_files=4, serve=FEW_MB, needs=("selected",), newcomer=True, most=JOINS,
+      least=BESIDE_READING)
+async def slow_files(arena):
+    """Asks for pictures of files that take seconds to read; who selects a scene that does not must have it soon."""
+    async with arena.asking("/api/v1/scenes?limit=200") as reader:
+        listed = json.loads((await reader.read()).split(b"\r\n\r\n", 1)[1])["scenes"]
+    slow = [scene["id"] for scene in listed if scene["name"].startswith("slow")]
+    quick = [scene["id"] for scene in listed if scene["name"] in "0123"]
+    if arena.index > 0:
+        for scene, view in zip(itertools.cycle(slow), views(arena)):
+            async with arena.asking(f"/render?scene={scene}&size=160x90&{view}") as reader:
+                await reader.read()
+        return
+    async with arena.viewer() as viewer:
+        for scene in itertools.cycle(quick):
+            await viewer.say(selectScene={"scene": scene})
+            await asyncio.wait_for(until_changed(viewer), 8)
+            arena.heard["selected"] += 1
+
+
+async def until_changed(viewer):
+    while (heard := await viewer.hear())[0] not in ("sceneChanged", "error"):
+        if heard[0] == "frame":
+            await viewer.acknowledge(heard[1])
