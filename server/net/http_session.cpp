@@ -84,10 +84,13 @@ void HttpSession::giveWayWhileWaiting() {
 }
 
 std::function<void()> HttpSession::closeLater() {
-    return [weak = weak_from_this()] {
-        if (const auto self = weak.lock()) {
-            boost::asio::post(self->strand_, [self] { self->close(); });
-        }
+    // Under the caller's lock nothing is held that may be the connection's last holder.
+    return [strand = strand_, weak = weak_from_this()] {
+        boost::asio::post(strand, [weak] {
+            if (const auto self = weak.lock()) {
+                self->close();
+            }
+        });
     };
 }
 

@@ -148,12 +148,12 @@ void WsConnection::onAccepted() {
     stream_.set_option(
         websocket::stream_base::timeout{kCloseTimeout, kIdleTimeout, /*keep_alive_pings=*/true});
     ticket_->waitForClient(
-        [weak = weak_from_this()] {
-            if (const auto self = weak.lock()) {
-                self->onStrand([raw = self.get()](Conversation& /*talk*/) {
-                    raw->abandon("it said nothing, and another has its place");
-                });
-            }
+        [strand = stream_.get_executor(), weak = weak_from_this()] {
+            asio::post(strand, [weak] {
+                if (const auto self = weak.lock()) {
+                    self->abandon("it said nothing, and another has its place");
+                }
+            });
         },
         Clock::now());
     hello_deadline_.expires_after(protocol::kHelloTimeout);
@@ -318,7 +318,9 @@ void WsConnection::onWritten(ErrorCode error) {
 // and lose that.
 void WsConnection::linger() {
     lingering_ = true;
-    conversation_->leave(); // nothing reaches it any more: its place is others'
+    if (conversation_) { // nothing reaches it any more: its place is others'
+        conversation_->leave();
+    }
     write_deadline_.expires_after(2 * PeerStream::kLinger);
     write_deadline_.async_wait([self = shared_from_this()](ErrorCode error) {
         if (!error) {
