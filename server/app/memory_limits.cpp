@@ -122,12 +122,21 @@ uint64_t readMemoryBytes() {
     return share(freeMemoryBytes(), kOnlyReadShare);
 }
 
-uint64_t readMemoryBytes(uint64_t scene_bytes) {
-    const uint64_t of_scene = scene_bytes > render::MemoryLimits::kNone / kReadBytesOfSceneByte
-                                  ? render::MemoryLimits::kNone
-                                  : scene_bytes * kReadBytesOfSceneByte;
-    return std::min(share(freeMemoryBytes(), kSharedReadShare),
-                    std::max(of_scene, kLeastReadBytes));
+ReadShares::Share ReadShares::take(uint64_t scene_bytes) {
+    constexpr uint64_t kNone = render::MemoryLimits::kNone;
+    const uint64_t of_scene = scene_bytes > kNone / kReadBytesOfSceneByte
+                                  ? kNone
+                                  : std::max(scene_bytes * kReadBytesOfSceneByte, kLeastReadBytes);
+    const auto free_bytes = free_bytes_();
+    if (!free_bytes) {
+        return std::make_shared<const uint64_t>(of_scene);
+    }
+    const std::lock_guard lock(promised_->mutex);
+    const uint64_t left = *free_bytes - std::min(*free_bytes, promised_->bytes);
+    const uint64_t bytes = std::min(of_scene, share(left, kSharedReadShare));
+    promised_->bytes += bytes;
+    const auto promise = std::make_shared<Promise>(promised_, bytes);
+    return {promise, &promise->bytes};
 }
 
 uint64_t sessionMemoryBytes(const MemoryOptions& options, bool device_is_cpu) {

@@ -5,7 +5,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <utility>
 
 namespace froxel::gpu {
 class Device;
@@ -34,8 +38,7 @@ inline constexpr double kSceneMemoryShare = 0.5;
 // read.
 [[nodiscard]] std::optional<uint64_t> freeMemoryBytes(const std::filesystem::path& root = "/");
 
-// Of what is free, what reading a scene may take: the only one; one of two at once, which stay
-// below all of it whenever each begins.
+// Of what is free, what reading a scene may take: the only one; one beside which others are read.
 inline constexpr double kOnlyReadShare = 0.75;
 inline constexpr double kSharedReadShare = 0.5;
 // For each byte of the device that scenes may take: a scene that needs more to be read would be
@@ -43,10 +46,43 @@ inline constexpr double kSharedReadShare = 0.5;
 inline constexpr uint64_t kReadBytesOfSceneByte = 3;
 inline constexpr uint64_t kLeastReadBytes = uint64_t{256} << 20U;
 
-// Of reading the scene that a command works with, and one that a server goes over to, whose scenes
-// may take `scene_bytes` of the device.
+// Of reading the scene that a command works with.
 [[nodiscard]] uint64_t readMemoryBytes();
-[[nodiscard]] uint64_t readMemoryBytes(uint64_t scene_bytes);
+
+// Of reading scenes that a server goes over to, several at once. Any thread.
+class ReadShares {
+  public:
+    // `free_bytes`: as freeMemoryBytes().
+    explicit ReadShares(std::function<std::optional<uint64_t>()> free_bytes =
+                            [] { return freeMemoryBytes(); })
+        : free_bytes_(std::move(free_bytes)) {}
+
+    // What one read may take, promised until it is let go: a part of what is free and not promised
+    // to others. `scene_bytes`: that the server's scenes may take of the device.
+    using Share = std::shared_ptr<const uint64_t>;
+    [[nodiscard]] Share take(uint64_t scene_bytes);
+
+  private:
+    struct Promised {
+        std::mutex mutex;
+        uint64_t bytes = 0;
+    };
+    struct Promise {
+        Promise(std::shared_ptr<Promised> all_promised, uint64_t promised_bytes)
+            : all(std::move(all_promised)), bytes(promised_bytes) {}
+        ~Promise() {
+            const std::lock_guard lock(all->mutex);
+            all->bytes -= bytes;
+        }
+        Promise(const Promise&) = delete;
+        Promise& operator=(const Promise&) = delete;
+
+        const std::shared_ptr<Promised> all;
+        const uint64_t bytes;
+    };
+    const std::function<std::optional<uint64_t>()> free_bytes_;
+    const std::shared_ptr<Promised> promised_ = std::make_shared<Promised>();
+};
 
 struct MemoryOptions {
     std::optional<uint32_t> device_mib;

@@ -86,15 +86,16 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
     const uint64_t scene_bytes = sceneMemoryBytes(options.memory, limits);
-    return {
-        std::move(source),
-        std::move(first.context),
-        std::move(memory),
-        Seconds(limit_s),
-        [maker, scene_bytes](const catalogue::Offered& offered, const ProgressReport& report_on) {
-            return maker->make(offered.source, {}, report_on, {readMemoryBytes(scene_bytes), true});
-        },
-        scene_bytes};
+    return {std::move(source),
+            std::move(first.context),
+            std::move(memory),
+            Seconds(limit_s),
+            [maker, scene_bytes, shares = std::make_shared<ReadShares>()](
+                const catalogue::Offered& offered, const ProgressReport& report_on) {
+                const auto share = shares->take(scene_bytes);
+                return maker->make(offered.source, {}, report_on, {*share, true});
+            },
+            scene_bytes};
 }
 
 fs::path webRootOf(const ServeOptions& options) {

@@ -74,6 +74,23 @@ TEST_F(HostMemory, NothingToRead_IsUnknown) {
     EXPECT_EQ(bytes(), std::nullopt);
 }
 
+TEST(ReadShares, OfSeveralReads_StayBelowWhatIsFree) {
+    constexpr uint64_t kScenes = 4096 * kMib;
+    ReadShares shares([] { return std::optional(1024 * kMib); });
+    auto first = shares.take(kScenes);
+    EXPECT_EQ(*first, 512 * kMib);
+    const auto second = shares.take(kScenes);
+    EXPECT_EQ(*second, 256 * kMib);
+    first.reset();
+    EXPECT_EQ(*shares.take(kScenes), 384 * kMib);
+    EXPECT_EQ(*shares.take(1), kLeastReadBytes) << "no scene of more would be taken";
+}
+
+TEST(ReadShares, UnknownMemory_LeavesThatOfTheScenes) {
+    ReadShares shares([] { return std::optional<uint64_t>(); });
+    EXPECT_EQ(*shares.take(1024 * kMib), 3072 * kMib);
+}
+
 TEST(SessionMemory, Default_IsByTheDevicesKind) {
     EXPECT_EQ(sessionMemoryBytes({}, true), kCpuSessionMemory_mib * kMib);
     EXPECT_EQ(sessionMemoryBytes({}, false), kGpuSessionMemory_mib * kMib);
