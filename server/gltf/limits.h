@@ -52,7 +52,7 @@ inline constexpr size_t kMaxNameBytes = 240;
 inline constexpr uint64_t kMeshoptVertexRatio = 1024;
 inline constexpr uint64_t kMeshoptTriangleRatio = 12; // a byte for each triangle
 inline constexpr uint64_t kMeshoptIndexRatio = 4;     // a byte for each index
-// Faces a byte. Entropy coding has no bound of its own; a regular grid, the best case, stays below.
+// Faces a byte. Entropy coding has no bound of its own: this one keeps work linear in the file.
 inline constexpr uint64_t kDracoFacesOfByte = 1ULL << 14U;
 
 // Memory that things take while a scene is read, bytes each.

@@ -36,27 +36,28 @@ std::optional<Origin> originOf(bool encrypted, const urls::authority_view& autho
     return origin;
 }
 
+// None: its scheme is another than http and https, or it has no authority.
+std::optional<Origin> originIn(const urls::url_view& uri) {
+    const bool encrypted = uri.scheme_id() == urls::scheme::https;
+    if ((!encrypted && uri.scheme_id() != urls::scheme::http) || !uri.has_authority()) {
+        return {};
+    }
+    return originOf(encrypted, uri.authority());
+}
+
 // Scheme, host and port alone (RFC 6454 section 6.2).
 std::optional<Origin> parsed(std::string_view text) {
     const auto uri = urls::parse_uri({text.data(), text.size()});
-    const bool encrypted = uri && uri->scheme_id() == urls::scheme::https;
-    if (!uri || (!encrypted && uri->scheme_id() != urls::scheme::http) || !uri->has_authority() ||
-        !uri->encoded_path().empty() || uri->has_query() || uri->has_fragment()) {
+    if (!uri || !uri->encoded_path().empty() || uri->has_query() || uri->has_fragment()) {
         return {};
     }
-    return originOf(encrypted, uri->authority());
+    return originIn(*uri);
 }
 
 // Of a page's address.
 std::optional<Origin> siteOf(std::string_view address) {
     const auto uri = urls::parse_uri({address.data(), address.size()});
-    if (!uri || !uri->has_authority()) {
-        return {};
-    }
-    const bool encrypted = uri->scheme_id() == urls::scheme::https;
-    return encrypted || uri->scheme_id() == urls::scheme::http
-               ? originOf(encrypted, uri->authority())
-               : std::nullopt;
+    return uri ? originIn(*uri) : std::nullopt;
 }
 
 } // namespace

@@ -9,8 +9,6 @@ import json
 import multiprocessing
 import os
 import re
-import shutil
-import subprocess
 import sys
 import tempfile
 import time
@@ -21,7 +19,7 @@ import websockets
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[0] / "load"))
-from server import Server
+from server import Server, write_halls
 from viewer import Viewer, Victim
 
 # `froxel load` comes from 127.0.0.1.
@@ -251,10 +249,7 @@ def served_with(options, own):
 
 def fill(folder, froxel):
     """Four scenes that take a second to read, and one that cannot be read."""
-    hall = folder / "0.glb"
-    subprocess.run([froxel, "scene", "--out", hall, "--log-level", "error"], check=True, stdout=subprocess.DEVNULL)
-    for name in "123":
-        shutil.copy(hall, folder / f"{name}.glb")
+    hall = write_halls(folder, froxel)
     (folder / "broken.glb").write_bytes(hall.read_bytes()[:100_000])
 
 

@@ -44,12 +44,16 @@ def triangle(count=3, **more):
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], **more}
 
 
+def placed(nodes):
+    """Members that place all of these nodes."""
+    return {"nodes": nodes, "scenes": [{"nodes": list(range(len(nodes)))}]}
+
+
 @file
 def cameras_of_one_name(folder):
     """310 kB with 8,000 cameras of one name."""
     lens = {"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}
-    nodes = [{"camera": 0, "name": "c"} for _ in range(8000)]
-    return gltf(folder, cameras=[lens], nodes=nodes, scenes=[{"nodes": list(range(8000))}])
+    return gltf(folder, cameras=[lens], **placed([{"camera": 0, "name": "c"}] * 8000))
 
 
 @file
@@ -124,18 +128,14 @@ def targets_times_nodes(folder):
     """Ten thousand nodes that show a mesh with ten thousand targets."""
     members = triangle()
     members["meshes"][0]["primitives"][0]["targets"] = [{} for _ in range(10_000)]
-    members["nodes"] = [{"mesh": 0} for _ in range(10_000)]
-    members["scenes"] = [{"nodes": list(range(10_000))}]
-    return gltf(folder, **members)
+    return gltf(folder, **{**members, **placed([{"mesh": 0}] * 10_000)})
 
 
 @file
 def joints_times_nodes(folder):
     """Ten thousand nodes that follow a skin with ten thousand joints."""
     members = triangle(skins=[{"joints": [0] * 10_000}])
-    members["nodes"] = [{"mesh": 0, "skin": 0} for _ in range(10_000)]
-    members["scenes"] = [{"nodes": list(range(10_000))}]
-    return gltf(folder, **members)
+    return gltf(folder, **{**members, **placed([{"mesh": 0, "skin": 0}] * 10_000)})
 
 
 @file
@@ -143,9 +143,7 @@ def primitives_times_nodes(folder):
     """Five thousand nodes that show a mesh with five thousand primitives."""
     members = triangle()
     members["meshes"][0]["primitives"] *= 5000
-    members["nodes"] = [{"mesh": 0} for _ in range(5000)]
-    members["scenes"] = [{"nodes": list(range(5000))}]
-    return gltf(folder, **members)
+    return gltf(folder, **{**members, **placed([{"mesh": 0}] * 5000)})
 
 
 @file

@@ -17,7 +17,6 @@ import csv
 import itertools
 import json
 import random
-import shutil
 import statistics
 import subprocess
 import sys
@@ -28,7 +27,7 @@ import urllib.error
 import urllib.request
 from pathlib import Path
 
-from server import Server, split_arguments
+from server import Server, split_arguments, write_halls
 
 SCRIPTS = ("orbit", "scenes", "idle", "storm")
 VISITORS = 3
@@ -36,13 +35,6 @@ SAMPLE_EVERY_S = 2.0
 STILL_EVERY_S = 1.0
 MOST_RISE = 0.1
 WATCHED = ("process_resident_memory_bytes", "process_heap_used_bytes", "froxel_device_memory_bytes")
-
-
-def fill(folder, froxel):
-    hall = folder / "0.glb"
-    subprocess.run([froxel, "scene", "--out", hall, "--log-level", "error"], check=True, stdout=subprocess.DEVNULL)
-    for name in "123":
-        shutil.copy(hall, folder / f"{name}.glb")
 
 
 def ask_for_stills(url, over):
@@ -127,7 +119,7 @@ def main():
     if not 0.5 <= options.minutes <= 1440:
         parser.error("--minutes must be 0.5 to 1440")
     with tempfile.TemporaryDirectory() as folder:
-        fill(Path(folder), options.froxel)
+        write_halls(Path(folder), options.froxel)
         server = Server(options.froxel, "--min-fps", "0", "--max-sessions", "32", "--scenes", folder, *serve_options)
         over = threading.Event()
         stills = threading.Thread(target=ask_for_stills, args=(server.url, over), daemon=True)
