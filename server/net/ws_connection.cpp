@@ -179,7 +179,9 @@ void WsConnection::read() {
 }
 
 void WsConnection::onReadError(ErrorCode error) {
-    if (error == websocket::error::closed) {
+    if (closing_) {
+        onClosed();
+    } else if (error == websocket::error::closed) {
         const uint16_t code = stream_.reason().code;
         if (code == websocket::close_code::normal && conversation_) {
             conversation_->onGoodbye();
@@ -337,14 +339,21 @@ void WsConnection::closeSocket() {
         beast::string_view(closing.reason.data(), closing.reason.size()));
     // A client that does not answer the close is not waited for longer than this.
     write_deadline_.expires_after(kCloseTimeout);
-    write_deadline_.async_wait([self = shared_from_this(), closing](ErrorCode error) {
+    write_deadline_.async_wait([self = shared_from_this()](ErrorCode error) {
         if (!error) {
-            self->abandon(closing.reason, static_cast<uint16_t>(closing.code));
+            self->onClosed();
         }
     });
-    stream_.async_close(reason, [self = shared_from_this(), closing](ErrorCode) {
-        self->abandon(closing.reason, static_cast<uint16_t>(closing.code));
-    });
+    stream_.async_close(reason, [self = shared_from_this()](ErrorCode) { self->onClosed(); });
+}
+
+// The client answered the close frame, or the time for that is over. Beast tells the pending read
+// and the close in either order; what counts is the code of the close frame.
+void WsConnection::onClosed() {
+    if (conversation_) {
+        const Closing closing = *conversation_->closing();
+        abandon(closing.reason, static_cast<uint16_t>(closing.code));
+    }
 }
 
 // Ends the conversation and lets the socket go; whatever is under way completes with an error.

@@ -59,6 +59,7 @@ class WsConnection final : public SessionViewer,
     void armWriteDeadline(size_t bytes);
     void linger();
     void closeSocket();
+    void onClosed();
     // `code` is the close code that both sides know of, or what stands for it.
     void abandon(const std::string& why, uint16_t code = kNoCloseCode);
 
