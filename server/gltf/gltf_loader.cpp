@@ -32,6 +32,7 @@ load(const std::filesystem::path& file, const ProgressReport& report, const Load
         scene::Scene scene = buildScene(document, folder, progress, memory, warnings);
         scene.name = file.stem().string();
         scene.file_bytes = folder.fileBytes();
+        scene.files = folder.takeFiles();
         warnings.moveInto(scene);
         return scene;
     } catch (const CalledOff&) {

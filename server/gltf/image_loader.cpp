@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "gltf/image_decode.h"
 #include "gltf/limits.h"
+#include "gltf/uri.h"
 
 #include <algorithm>
 #include <atomic>
@@ -48,7 +49,7 @@ void find(
     if (!source.uri.empty()) {
         job.owned = folder.read(source.uri, job.user);
         job.file = job.owned;
-        job.user += source.uri.starts_with("data:") ? "" : " '" + printable(source.uri) + "'";
+        job.user += isDataUri(source.uri) ? "" : " '" + printable(source.uri) + "'";
     } else {
         job.file = viewBytes(source.buffer_view, views, job.user);
     }

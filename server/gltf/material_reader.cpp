@@ -2,6 +2,7 @@
 
 #include "core/text.h"
 #include "gltf/extension_value.h"
+#include "gltf/uri.h"
 #include "gltf/word_table.h"
 
 #include <algorithm>
@@ -452,8 +453,7 @@ uint32_t MaterialReader::image(const std::vector<size_t>& sources) {
     if (is_new) {
         scene::Image image;
         const ImageSource& source = document_.images[sources.front()];
-        image.name =
-            !source.name.empty() || source.uri.starts_with("data:") ? source.name : source.uri;
+        image.name = !source.name.empty() || isDataUri(source.uri) ? source.name : source.uri;
         scene_.images.push_back(std::move(image));
         images_.push_back(sources);
     }

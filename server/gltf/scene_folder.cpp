@@ -1,16 +1,12 @@
 #include "gltf/scene_folder.h"
 
 #include "core/text.h"
-
-#include <tiny_gltf.h>
+#include "gltf/failure.h"
+#include "gltf/uri.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
-#include <charconv>
-#include <cstring>
 #include <fcntl.h>
-#include <string_view>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -51,69 +47,9 @@ bool isAt(int descriptor, const fs::path& canonical) {
     return unknown || real == canonical;
 }
 
-// NONBLOCK: opening a pipe must not wait for its writer.
-Bytes readFile(const fs::path& path,
-               bool canonical,
-               const std::string& user,
-               Budget& budget,
-               LoadProgress& progress) {
-    const std::string shown = "'" + printable(path.string(), 300) + "'";
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-    if (file.get() < 0) {
-        fail(user + " cannot open " + shown + ": " + reason(errno));
-    }
-    if (canonical && !isAt(file.get(), path)) {
-        fail(user + " names " + shown + ", where a link was put meanwhile; right is a file there");
-    }
-    struct stat status {};
-    if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
-        fail(user + " names " + shown + ", which is not a regular file");
-    }
-    const auto size = static_cast<size_t>(status.st_size);
-    budget.take(size, user);
-    Bytes bytes(size);
-    size_t done = 0;
-    while (done < size) {
-        progress.ask();
-        const ssize_t got =
-            ::read(file.get(), bytes.data() + done, std::min(size - done, kReadAtOnce));
-        if (got < 0 && errno == EINTR) {
-            continue;
-        }
-        if (got <= 0) {
-            fail(user + " cannot read " + shown + ": " +
-                 (got < 0 ? reason(errno) : "it is shorter than it was"));
-        }
-        done += static_cast<size_t>(got);
-    }
-    return bytes;
-}
-
-// What begins no escape stands for itself, as in "wood 50%.png".
-std::string percentDecoded(const std::string& uri) {
-    std::string text;
-    for (size_t i = 0; i < uri.size(); ++i) {
-        unsigned value = 0;
-        const char* first = uri.data() + i + 1;
-        const char* last = uri.data() + std::min(i + 3, uri.size());
-        if (uri[i] == '%' && last - first == 2 &&
-            std::from_chars(first, last, value, 16).ptr == last) {
-            text += static_cast<char>(value);
-            i += 2;
-        } else {
-            text += uri[i];
-        }
-    }
-    return text;
-}
-
-bool hasScheme(const std::string& uri) {
-    const size_t colon = uri.find(':');
-    return colon != std::string::npos && colon > 0 &&
-           std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](char c) {
-               return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' ||
-                      c == '.';
-           });
+// Of an error that says nothing about the file: what it belongs to cannot do without it this time.
+bool passes(int error) {
+    return error == EMFILE || error == ENFILE || error == ENOMEM || error == EIO || error == ESTALE;
 }
 
 bool isInside(const fs::path& path, const fs::path& folder) {
@@ -121,55 +57,14 @@ bool isInside(const fs::path& path, const fs::path& folder) {
            folder.end();
 }
 
-// Whatever type it tells: what counts are the bytes, and tinygltf knows few types.
-Bytes dataFromUri(const std::string& uri, const std::string& user) {
-    constexpr std::string_view kBase64 = ";base64,";
-    constexpr size_t kMaxTypeBytes = 200;
-    const size_t end = uri.substr(0, kMaxTypeBytes).find(kBase64);
-    std::string mime_type;
-    std::vector<unsigned char> decoded;
-    if (end == std::string::npos ||
-        !tinygltf::DecodeDataURI(&decoded, mime_type,
-                                 "data:application/octet-stream" + uri.substr(end), 0, false)) {
-        throw Unusable(warning::kBrokenImage,
-                       user + " has the URI '" + printable(uri, 40) +
-                           "', which cannot be decoded; right is data:TYPE;base64, with at least "
-                           "one byte");
+[[noreturn]] void failToOpen(const std::string& what, int error) {
+    if (passes(error)) {
+        fail(what + reason(error));
     }
-    Bytes bytes(decoded.size());
-    std::memcpy(bytes.data(), decoded.data(), decoded.size());
-    return bytes;
+    throw Unusable(warning::kMissingFile, what + reason(error));
 }
 
 } // namespace
-
-fs::path relativePathFromUri(const std::string& uri, const std::string& user) {
-    const auto refuse = [&](const char* why, const char* more = "") {
-        throw Unusable(warning::kUri, user + " has the URI '" + printable(uri) + "', which " + why +
-                                          "; right is a path inside the scene's folder" + more);
-    };
-    if (hasScheme(uri)) {
-        refuse("has a scheme", ", or data:");
-    }
-    // Neither a query nor a fragment is part of a file's name (RFC 3986, 3.4 and 3.5).
-    std::string text = percentDecoded(uri.substr(0, uri.find_first_of("?#")));
-    // Some tools that write such files have it separate folders.
-    std::replace(text.begin(), text.end(), '\\', '/');
-    if (text.empty()) {
-        refuse("is empty");
-    }
-    if (text.find('\0') != std::string::npos) {
-        refuse("contains a NUL");
-    }
-    fs::path path(text);
-    if (path.is_absolute() || hasScheme(text)) {
-        refuse("is absolute");
-    }
-    if (std::find(path.begin(), path.end(), "..") != path.end()) {
-        refuse("leaves the scene's folder by '..'");
-    }
-    return path;
-}
 
 SceneFolder::SceneFolder(const fs::path& scene_file,
                          bool no_link,
@@ -181,41 +76,81 @@ SceneFolder::SceneFolder(const fs::path& scene_file,
     const fs::path parent = scene_file.has_parent_path() ? scene_file.parent_path() : ".";
     folder_ = fs::canonical(parent, error);
     if (error) {
-        fail("cannot open its folder '" + printable(parent.string(), 300) +
-             "': " + error.message());
+        fail("cannot open its folder: " + error.message());
     }
 }
 
 Bytes SceneFolder::readSceneFile() {
-    return readIn(scene_file_, no_link_, "the scene");
+    files_.push_back({scene_file_, 0});
+    return readFile(scene_file_, no_link_, "the scene");
 }
 
-Bytes SceneFolder::readIn(const fs::path& path, bool canonical, const std::string& user) {
-    Bytes bytes = readFile(path, canonical, user, bytes_, progress_);
-    file_bytes_ += bytes.size();
+// NONBLOCK: opening a pipe must not wait for its writer.
+Bytes SceneFolder::readFile(const fs::path& path, bool canonical, const std::string& user) {
+    const std::string shown = "'" + printable(shownPath(path), 300) + "'";
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.get() < 0) {
+        failToOpen(user + " cannot open " + shown + ": ", errno);
+    }
+    struct stat status {};
+    if (::fstat(file.get(), &status) != 0) {
+        failToOpen(user + " cannot open " + shown + ": ", errno);
+    }
+    files_.back().stamp = stampOf(status);
+    if (canonical && !isAt(file.get(), path)) {
+        fail(user + " names " + shown + ", where a link was put meanwhile; right is a file there");
+    }
+    if (!S_ISREG(status.st_mode)) {
+        throw Unusable(warning::kMissingFile,
+                       user + " names " + shown + ", which is not a regular file");
+    }
+    const auto size = static_cast<size_t>(status.st_size);
+    bytes_.take(size, user);
+    Bytes bytes(size);
+    size_t done = 0;
+    while (done < size) {
+        progress_.ask();
+        const ssize_t got =
+            ::read(file.get(), bytes.data() + done, std::min(size - done, kReadAtOnce));
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        if (got <= 0) {
+            fail(user + " cannot read " + shown + ": " +
+                 (got < 0 ? reason(errno) : "it is shorter than it was"));
+        }
+        done += static_cast<size_t>(got);
+    }
+    file_bytes_ += size;
     return bytes;
 }
 
+// Visitors are told it, who need not know the server's folders.
+std::string SceneFolder::shownPath(const fs::path& path) const {
+    return isInside(path, folder_) ? path.lexically_relative(folder_).string()
+                                   : path.filename().string();
+}
+
 Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
-    if (uri.starts_with("data:")) {
-        // Three bytes for four characters; the URI itself is bounded by the JSON text's limit.
-        bytes_.take(uri.size() / 4 * 3, user);
-        return dataFromUri(uri, user);
+    if (isDataUri(uri)) {
+        bytes_.take(uri.size(), user); // at most; the JSON text's limit bounds it
+        return bytesOfDataUri(uri, user);
     }
     const fs::path relative = relativePathFromUri(uri, user);
+    files_.push_back({folder_ / relative, 0});
     std::error_code error;
     const fs::path target = fs::canonical(folder_ / relative, error);
     if (error) {
-        throw Unusable(warning::kMissingFile, user + " cannot open '" +
-                                                  printable(relative.string(), 300) +
-                                                  "' in the scene's folder: " + error.message());
+        failToOpen(user + " cannot open '" + printable(relative.string(), 300) +
+                       "' in the scene's folder: ",
+                   error.value());
     }
     if (!isInside(target, folder_)) {
         throw Unusable(warning::kUri, user + " has the URI '" + printable(uri) +
                                           "', a link that leaves the scene's folder; right is a "
                                           "file inside it");
     }
-    return readIn(target, true, user);
+    return readFile(target, true, user);
 }
 
 } // namespace froxel::gltf

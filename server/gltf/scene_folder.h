@@ -1,23 +1,18 @@
 // The only way to the file system: files inside the folder that the scene file lies in.
 #pragma once
 
+#include "core/file_stamp.h"
+#include "gltf/bytes.h"
 #include "gltf/limits.h"
 #include "gltf/load_progress.h"
 
-#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace froxel::gltf {
-
-using Bytes = std::vector<std::byte>;
-
-// The path that a relative URI of a glTF file names: percent-decoded, with slashes for backslashes,
-// without a query and a fragment. Throws Unusable for a URI with a scheme, and where that path is
-// absolute, has a `..` part or a NUL; `user` is named in the message.
-[[nodiscard]] std::filesystem::path relativePathFromUri(const std::string& uri,
-                                                        const std::string& user);
 
 class SceneFolder {
   public:
@@ -30,17 +25,22 @@ class SceneFolder {
     // The scene file itself. Throws Failure, as all here; CalledOff.
     [[nodiscard]] Bytes readSceneFile();
 
-    // The bytes behind a base64 `data:` URI of any type or a file of the folder; a symlink may lead
-    // only to a place inside the folder. Throws Failure, naming `user`: Unusable where the URI is
-    // wrong, there is no such file or the base64 text is broken.
+    // The bytes behind a `data:` URI of any type or a file of the folder; a symlink may lead only
+    // to a place inside the folder. Throws Failure, naming `user`: Unusable where the URI is wrong,
+    // there is no such file, it cannot be read or the `data:` URI cannot be decoded.
     [[nodiscard]] Bytes read(const std::string& uri, const std::string& user);
 
     // Of all files that were read.
     [[nodiscard]] uint64_t fileBytes() const { return file_bytes_; }
 
+    // All that were opened or looked for, the scene's own first.
+    [[nodiscard]] std::vector<StampedFile> takeFiles() { return std::move(files_); }
+
   private:
+    // The last of files_; `canonical`: the path is, and must still be.
     [[nodiscard]] Bytes
-    readIn(const std::filesystem::path& path, bool canonical, const std::string& user);
+    readFile(const std::filesystem::path& path, bool canonical, const std::string& user);
+    [[nodiscard]] std::string shownPath(const std::filesystem::path& path) const;
 
     std::filesystem::path scene_file_;
     bool no_link_;
@@ -48,6 +48,7 @@ class SceneFolder {
     LoadProgress& progress_;
     Budget bytes_;
     uint64_t file_bytes_ = 0;
+    std::vector<StampedFile> files_;
 };
 
 } // namespace froxel::gltf

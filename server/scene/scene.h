@@ -1,6 +1,7 @@
 // A loaded scene on the host: flat arrays, validated, independent of file formats and of the GPU.
 #pragma once
 
+#include "core/file_stamp.h"
 #include "core/math.h"
 #include "interface/material_factors.h"
 #include "interface/material_slots.h"
@@ -192,7 +193,8 @@ struct PunctualLight {
 
 struct Scene {
     std::string name;
-    uint64_t file_bytes = 0; // of its file and of all that this refers to; 0: it is built in
+    uint64_t file_bytes = 0;        // of its file and of all that this refers to; 0: it is built in
+    std::vector<StampedFile> files; // that reading it opened or looked for, its own first
     std::vector<Image> images;
     std::vector<Sampler> samplers;
     std::vector<Texture> textures;

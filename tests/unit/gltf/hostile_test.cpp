@@ -1,5 +1,6 @@
 // Files that mean harm or are broken: each one line that names the thing.
 #include "gltf/scene_folder.h"
+#include "gltf/uri.h"
 #include "unit/gltf/scene_file.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ TEST(Uri, Scheme_IsRefused) {
                             "FILE:scene.bin", "C:\\scene.bin"}) {
         EXPECT_THAT(refusedUri(uri), HasSubstr("has a scheme")) << uri;
     }
-    EXPECT_THAT(refusedUri("file%3a///etc/passwd"), HasSubstr("is absolute"));
+    EXPECT_THAT(refusedUri("file%3a///etc/passwd"), HasSubstr("cannot open 'file:/etc/passwd'"));
 }
 
 TEST(Uri, Nul_IsRefused) {
@@ -57,7 +58,10 @@ TEST(Uri, OddOnes_NameTheFileThatIsMeant) {
          {std::pair("mesh 50%.bin", "mesh 50%.bin"), std::pair("%zz%+1%", "%zz%+1%"),
           std::pair("mesh%2", "mesh%2"), std::pair("a%20b.bin", "a b.bin"),
           std::pair("mesh.bin?v=3", "mesh.bin"), std::pair("mesh.bin#0", "mesh.bin"),
-          std::pair("a%23b.bin", "a#b.bin")}) {
+          std::pair("a%23b.bin", "a#b.bin"), std::pair("textures/../a.png", "a.png"),
+          std::pair("./a/%2e%2e//b/./c.png", "b/c.png"), std::pair("my%3Atex.png", "my:tex.png"),
+          std::pair("2026-01-02T10:11:12.png", "2026-01-02T10:11:12.png"),
+          std::pair("textures/a:b.png", "textures/a:b.png")}) {
         EXPECT_EQ(relativePathFromUri(uri, "buffer 0"), file) << uri;
     }
     EXPECT_EQ(relativePathFromUri("data\\mesh.bin", "buffer 0"), "data/mesh.bin");
@@ -111,12 +115,30 @@ TEST(Uri, Folder_IsRefused) {
 }
 
 TEST(Uri, UnknownData_IsRefused) {
-    EXPECT_THAT(refusedUri("data:text/html,hello"), HasSubstr("cannot be decoded"));
+    EXPECT_THAT(refusedUri("data:text/html,hello"), HasSubstr("there are 5"));
+    EXPECT_THAT(refusedUri("data:text/html,"), HasSubstr("cannot be decoded"));
+    EXPECT_THAT(refusedUri("data:;base64,AAAA*AAA"), HasSubstr("cannot be decoded"));
+    EXPECT_THAT(refusedUri("data:;base64,AAAAA"), HasSubstr("cannot be decoded"));
+    EXPECT_THAT(refusedUri("data:;base64,AA==AAAA"), HasSubstr("cannot be decoded"));
     EXPECT_THAT(refusedUri("data:application/octet-stream;base64,"),
                 HasSubstr("cannot be decoded"));
     EXPECT_THAT(refusedUri("data:application/octet-stream"), HasSubstr("cannot be decoded"));
     EXPECT_THAT(refusedUri("data:application/octet-stream;base64,AAAA"),
                 HasSubstr("buffer 0 says 36 bytes, but there are 3"));
+}
+
+// RFC 2397, RFC 3986 3.1, and "forgiving-base64 decode" of WHATWG's Infra.
+TEST(Uri, DataInAnySpelling_IsDecoded) {
+    const Bytes abcd{std::byte{'a'}, std::byte{'b'}, std::byte{'c'}, std::byte{0xFF}};
+    for (const char* uri :
+         {"data:application/octet-stream;base64,YWJj/w==", "data:;base64,YWJj/w",
+          "DATA:application/octet-stream;BASE64,YWJj/w==", "data:;base64,YWJj%2Fw%3D%3D",
+          "data:a/b;charset=utf-8;base64,YWJj/w==", "data:a/b; base64 ,YW\nJj\r\n /w=\t=",
+          "data:a/b,abc%FF", "data:,abc%ff#part", "data:;base64x,abc%ff"}) {
+        EXPECT_TRUE(isDataUri(uri)) << uri;
+        EXPECT_EQ(bytesOfDataUri(uri, "buffer 0"), abcd) << uri;
+    }
+    EXPECT_FALSE(isDataUri("data.bin"));
 }
 
 TEST(Buffers, Missing_IsRefused) {

@@ -8,8 +8,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <gmock/gmock.h>
+#include <map>
 #include <numeric>
+#include <string>
+#include <sys/stat.h>
 
 namespace froxel::gltf {
 namespace {
@@ -25,6 +29,8 @@ using test::TempFolder;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
+using testing::Pair;
 
 // The triangle with `count` textures of as many images, which are for a test to fill in.
 SceneFile withImages(size_t count) {
@@ -115,8 +121,41 @@ TEST(Images, Missing_LeavesItsTexturesOut) {
     file.json["images"][0]["uri"] = "missing.png";
     EXPECT_THAT(leftOut(file), AllOf(HasSubstr("FILE_NOT_FOUND at /images/0"),
                                      HasSubstr("image 0 cannot open 'missing.png'")));
-    file.json["images"][0]["uri"] = "data:image/png,AAAA";
+    file.json["images"][0]["uri"] = "data:image/png,";
     EXPECT_THAT(leftOut(file), HasSubstr("cannot be decoded"));
+}
+
+// As one that is missing; nobody who is told needs to know where the server keeps its files.
+TEST(Images, CannotBeRead_LeavesItsTexturesOut_AndTellsNoFolderOfTheServer) {
+    const TempFolder folder;
+    std::filesystem::create_directory(folder.path() / "dir.png");
+    ASSERT_EQ(::mkfifo((folder.path() / "pipe.png").c_str(), 0600), 0);
+    for (const char* name : {"dir.png", "pipe.png", "missing.png"}) {
+        SceneFile file = withImages(1);
+        file.json["images"][0]["uri"] = name;
+        const auto scene = loaded(file.loadIn(folder));
+        ASSERT_EQ(scene.warnings.size(), 1U) << name;
+        EXPECT_EQ(scene.warnings[0].code, std::string("FILE_NOT_FOUND"));
+        EXPECT_THAT(scene.warnings[0].message,
+                    AllOf(HasSubstr(name), Not(HasSubstr(folder.path().string()))));
+        EXPECT_EQ(scene.materials[0].emissive_texture.texture, scene::kNone);
+    }
+}
+
+TEST(Files, WhatReadingOpenedOrLookedFor_IsTold) {
+    const TempFolder folder;
+    SceneFile file = withImages(2);
+    file.json["images"][0]["uri"] = "missing.png";
+    folder.write("broken.png", "no picture");
+    file.json["images"][1]["uri"] = "textures/../broken.png";
+    const auto scene = loaded(file.loadIn(folder));
+    std::map<std::string, bool> there;
+    for (const StampedFile& one : scene.files) {
+        there[one.path.filename().string()] = one.stamp != 0;
+        EXPECT_FALSE(one.hasChanged()) << one.path;
+    }
+    EXPECT_THAT(there, ElementsAre(Pair("broken.png", true), Pair("missing.png", false),
+                                   Pair("scene.bin", true), Pair("scene.gltf", true)));
 }
 
 TEST(Images, OutOfRangeOrOutside_LeavesItsTexturesOut) {

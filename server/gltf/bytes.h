@@ -1,0 +1,10 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace froxel::gltf {
+
+using Bytes = std::vector<std::byte>;
+
+} // namespace froxel::gltf
