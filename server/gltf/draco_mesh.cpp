@@ -17,42 +17,10 @@ namespace {
 
 constexpr uint16_t kBitstream = 0x0202; // the only version that glTF allows
 
-struct Counts {
-    uint32_t points = 0;
-    uint32_t faces = 0;
-};
-
-// The part of the stream in front of the connectivity, by Draco's own readers.
-Counts readCounts(draco::DecoderBuffer buffer, const std::string& user) {
-    draco::DracoHeader header{};
-    if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) {
-        fail(user + " has no Draco header");
-    }
-    if (header.version_major != 2 || header.version_minor != 2 ||
-        header.encoder_type != draco::TRIANGULAR_MESH) {
-        fail(user + " has a Draco stream of version " + std::to_string(header.version_major) + "." +
-             std::to_string(header.version_minor) + " and type " +
-             std::to_string(header.encoder_type) + "; right is a mesh (1) of version 2.2");
-    }
-    buffer.set_bitstream_version(kBitstream);
-    bool good = true;
-    if ((header.flags & METADATA_FLAG_MASK) != 0) {
-        draco::GeometryMetadata metadata;
-        good = draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata);
-    }
-    Counts counts;
-    if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
-        uint8_t traversal = 0;
-        good = good && buffer.Decode(&traversal) && draco::DecodeVarint(&counts.points, &buffer) &&
-               draco::DecodeVarint(&counts.faces, &buffer);
-    } else {
-        good = good && draco::DecodeVarint(&counts.faces, &buffer) &&
-               draco::DecodeVarint(&counts.points, &buffer);
-    }
-    if (!good) {
-        fail(user + " has a Draco stream that is cut off in its header");
-    }
-    return counts;
+draco::DecoderBuffer bufferOf(std::span<const std::byte> stream) {
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
+    return buffer;
 }
 
 template <class T>
@@ -78,25 +46,50 @@ float normalize(float value, draco::DataType type) {
 
 } // namespace
 
-DracoMesh::DracoMesh(std::span<const std::byte> stream,
-                     DracoExpectation expected,
-                     const std::string& user)
-    : expected_(std::move(expected)) {
-    draco::DecoderBuffer buffer;
-    buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
-    const Counts counts = readCounts(buffer, user);
-    // Edgebreaker's header counts vertices before seams split them, so it is a lower bound.
-    if (counts.points > expected_.vertex_count ||
-        uint64_t{counts.faces} * 3 != expected_.index_count) {
-        fail(user + " has a Draco stream of " + std::to_string(counts.points) + " vertices and " +
-             std::to_string(counts.faces) + " triangles; its accessors say " +
-             std::to_string(expected_.vertex_count) + " and " +
-             std::to_string(expected_.index_count / 3));
+// The part of the stream in front of the connectivity, by Draco's own readers.
+DracoCounts readDracoCounts(std::span<const std::byte> stream, const std::string& user) {
+    draco::DecoderBuffer buffer = bufferOf(stream);
+    draco::DracoHeader header{};
+    if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) {
+        fail(user + " has no Draco header");
     }
-    if (counts.faces > stream.size() * kDracoFacesOfByte) {
+    if (header.version_major != 2 || header.version_minor != 2 ||
+        header.encoder_type != draco::TRIANGULAR_MESH) {
+        fail(user + " has a Draco stream of version " + std::to_string(header.version_major) + "." +
+             std::to_string(header.version_minor) + " and type " +
+             std::to_string(header.encoder_type) + "; right is a mesh (1) of version 2.2");
+    }
+    buffer.set_bitstream_version(kBitstream);
+    bool good = true;
+    if ((header.flags & METADATA_FLAG_MASK) != 0) {
+        draco::GeometryMetadata metadata;
+        good = draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata);
+    }
+    uint32_t vertices = 0;
+    uint32_t triangles = 0;
+    if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
+        uint8_t traversal = 0;
+        good = good && buffer.Decode(&traversal) && draco::DecodeVarint(&vertices, &buffer) &&
+               draco::DecodeVarint(&triangles, &buffer);
+    } else {
+        good = good && draco::DecodeVarint(&triangles, &buffer) &&
+               draco::DecodeVarint(&vertices, &buffer);
+    }
+    if (!good) {
+        fail(user + " has a Draco stream that is cut off in its header");
+    }
+    if (triangles > stream.size() * kDracoFacesOfByte) {
         fail(user + " has a Draco stream of " + std::to_string(stream.size()) +
-             " bytes that says it has " + std::to_string(counts.faces) + " triangles");
+             " bytes that says it has " + std::to_string(triangles) + " triangles");
     }
+    return {vertices, triangles};
+}
+
+DracoMesh::DracoMesh(std::span<const std::byte> stream,
+                     std::map<std::string, int> attributes,
+                     const std::string& user)
+    : attributes_(std::move(attributes)) {
+    draco::DecoderBuffer buffer = bufferOf(stream);
     draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok()) {
@@ -104,18 +97,24 @@ DracoMesh::DracoMesh(std::span<const std::byte> stream,
              " has a broken Draco stream: " + printable(decoded.status().error_msg_string()));
     }
     mesh_ = std::move(decoded).value();
-    if (mesh_ == nullptr || mesh_->num_points() != expected_.vertex_count ||
-        uint64_t{mesh_->num_faces()} * 3 != expected_.index_count) {
-        fail(user + " has a Draco stream that decodes to other counts than its accessors say (" +
-             std::to_string(expected_.vertex_count) + " vertices)");
+    if (mesh_ == nullptr) {
+        fail(user + " has a Draco stream without a mesh");
     }
+}
+
+uint64_t DracoMesh::vertexCount() const {
+    return mesh_->num_points();
+}
+
+uint64_t DracoMesh::triangleCount() const {
+    return mesh_->num_faces();
 }
 
 DracoMesh::~DracoMesh() = default;
 
 std::vector<uint32_t> DracoMesh::indices() const {
     std::vector<uint32_t> result;
-    result.reserve(expected_.index_count);
+    result.reserve(size_t{mesh_->num_faces()} * 3);
     for (draco::FaceIndex face(0); face < mesh_->num_faces(); ++face) {
         for (const draco::PointIndex& corner : mesh_->face(face)) {
             result.push_back(corner.value());
@@ -127,7 +126,7 @@ std::vector<uint32_t> DracoMesh::indices() const {
 template <int N>
 std::vector<glm::vec<N, float>>
 DracoMesh::vectors(const std::string& semantic, bool normalized, const std::string& user) const {
-    const int id = expected_.attributes.at(semantic);
+    const int id = attributes_.at(semantic);
     const draco::PointAttribute* attribute =
         mesh_->GetAttributeByUniqueId(static_cast<uint32_t>(id));
     if (attribute == nullptr || attribute->num_components() != N) {

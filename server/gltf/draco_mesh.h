@@ -17,27 +17,32 @@ class Mesh;
 
 namespace froxel::gltf {
 
-// What the stream must agree with: the accessors of the primitive.
-struct DracoExpectation {
-    uint64_t vertex_count = 0;
-    uint64_t index_count = 0;
-    std::map<std::string, int> attributes; // semantic to the stream's unique attribute id
+// What a stream's header says it decodes to.
+struct DracoCounts {
+    uint64_t vertices = 0; // or more: Edgebreaker counts them before seams split them
+    uint64_t triangles = 0;
 };
+
+// The decoder allocates by them: take their memory first. Throws Failure, naming `user`, also where
+// so few bytes cannot hold so much.
+[[nodiscard]] DracoCounts readDracoCounts(std::span<const std::byte> stream,
+                                          const std::string& user);
 
 class DracoMesh {
   public:
-    // Decodes. Counts are read from the stream's header and compared first, since the decoder
-    // allocates by them. Throws Failure, naming `user`.
+    // `attributes`: of a semantic the stream's unique attribute id. Throws Failure, naming `user`.
     DracoMesh(std::span<const std::byte> stream,
-              DracoExpectation expected,
+              std::map<std::string, int> attributes,
               const std::string& user);
     ~DracoMesh();
     DracoMesh(const DracoMesh&) = delete;
     DracoMesh& operator=(const DracoMesh&) = delete;
 
     [[nodiscard]] bool has(const std::string& semantic) const {
-        return expected_.attributes.contains(semantic);
+        return attributes_.contains(semantic);
     }
+    [[nodiscard]] uint64_t vertexCount() const;
+    [[nodiscard]] uint64_t triangleCount() const;
     [[nodiscard]] std::vector<uint32_t> indices() const;
 
     // One element per vertex, finite or not. A wrong number of components throws Failure.
@@ -46,7 +51,7 @@ class DracoMesh {
     vectors(const std::string& semantic, bool normalized, const std::string& user) const;
 
   private:
-    DracoExpectation expected_;
+    std::map<std::string, int> attributes_;
     std::unique_ptr<draco::Mesh> mesh_;
 };
 

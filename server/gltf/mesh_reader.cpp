@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numeric>
 
@@ -31,25 +32,6 @@ std::optional<Topology> topologyOf(int mode) {
     default:
         return std::nullopt;
     }
-}
-
-// Decodes the primitive's Draco stream; null where it has none.
-std::unique_ptr<DracoMesh> openDraco(const tinygltf::Primitive& source,
-                                     uint64_t vertex_count,
-                                     uint64_t index_count,
-                                     BufferViews& views,
-                                     const std::string& user) {
-    const tinygltf::Value* extension = findExtension(source.extensions, kDraco);
-    if (extension == nullptr) {
-        return nullptr;
-    }
-    DracoExpectation expected{vertex_count, index_count, {}};
-    const tinygltf::Value& attributes = extension->Get("attributes");
-    for (const std::string& semantic : attributes.Keys()) {
-        expected.attributes[semantic] = attributes.Get(semantic).GetNumberAsInt();
-    }
-    return std::make_unique<DracoMesh>(views.bytes(intOr(*extension, "bufferView", -1), user),
-                                       std::move(expected), user);
 }
 
 std::vector<glm::vec4> readColors(VertexSource& source, int components, size_t count) {
@@ -200,9 +182,10 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
         return std::nullopt;
     }
     const int index_accessor = document_.indices[mesh][number];
-    const uint64_t vertex_count = accessors_.count(source.attributes.at("POSITION"), user);
-    const uint64_t index_count =
+    uint64_t vertex_count = accessors_.count(source.attributes.at("POSITION"), user);
+    uint64_t index_count =
         index_accessor < 0 ? vertex_count : accessors_.count(index_accessor, user);
+    const auto draco = openDraco(source, vertex_count, index_count, pointer, user);
     const uint64_t list_length = listLength(*topology, index_count);
     if (list_length == 0) {
         warnings_.add(warning::kCountOff, pointer,
@@ -214,10 +197,10 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
                       user + " has " + std::to_string(index_count) +
                           " indices, no multiple of 3; the last are ignored");
     }
-    vertices_.take(vertex_count, user);
-    indices_.take(std::max(list_length, index_count), user);
-
-    const auto draco = openDraco(source, vertex_count, index_count, views_, user);
+    if (draco == nullptr) {
+        vertices_.take(vertex_count, user);
+        indices_.take(std::max(list_length, index_count), user);
+    }
     VertexSource stream(source, accessors_, draco.get(), user);
     scene::Primitive primitive;
     primitive.positions = stream.vectors<3>("POSITION", vertex_count);
@@ -237,6 +220,43 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
         primitive.bounds.add(position);
     }
     return primitive;
+}
+
+// The counts become those of the stream, which wins where accessors say others: a loader "must use
+// the decompressed data" (KHR_draco_mesh_compression). Blender's exporters up to 1.2.75 counted
+// before they compressed.
+std::unique_ptr<DracoMesh> MeshReader::openDraco(const tinygltf::Primitive& source,
+                                                 uint64_t& vertex_count,
+                                                 uint64_t& index_count,
+                                                 const std::string& pointer,
+                                                 const std::string& user) {
+    const tinygltf::Value* extension = findExtension(source.extensions, kDraco);
+    if (extension == nullptr) {
+        return nullptr;
+    }
+    std::map<std::string, int> ids;
+    const tinygltf::Value& attributes = extension->Get("attributes");
+    for (const std::string& semantic : attributes.Keys()) {
+        ids[semantic] = attributes.Get(semantic).GetNumberAsInt();
+    }
+    const auto stream = views_.bytes(intOr(*extension, "bufferView", -1), user);
+    const DracoCounts counts = readDracoCounts(stream, user);
+    vertices_.take(counts.vertices, user);
+    indices_.take(counts.triangles * 3, user);
+    auto mesh = std::make_unique<DracoMesh>(stream, std::move(ids), user);
+    const uint64_t vertices = mesh->vertexCount();
+    const uint64_t indices = mesh->triangleCount() * 3;
+    vertices_.take(vertices - std::min(vertices, counts.vertices), user);
+    if (vertices != vertex_count || indices != index_count) {
+        warnings_.add(warning::kDracoCounts, pointer + "/extensions/" + kDraco,
+                      user + " has " + std::to_string(vertex_count) + " vertices and " +
+                          std::to_string(index_count) + " indices by its accessors, but " +
+                          std::to_string(vertices) + " and " + std::to_string(indices) +
+                          " in its Draco stream, which is what is drawn");
+    }
+    vertex_count = vertices;
+    index_count = indices;
+    return mesh;
 }
 
 void MeshReader::readMaterials(const tinygltf::Primitive& source,

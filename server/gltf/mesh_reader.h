@@ -5,6 +5,7 @@
 #include "gltf/buffer_views.h"
 #include "gltf/deformation_reader.h"
 #include "gltf/document.h"
+#include "gltf/draco_mesh.h"
 #include "gltf/limits.h"
 #include "gltf/material_reader.h"
 #include "scene/motion.h"
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -73,6 +75,12 @@ class MeshReader {
                     scene::Primitive& primitive,
                     const std::string& pointer,
                     const std::string& user);
+    // Null where the primitive is not compressed.
+    [[nodiscard]] std::unique_ptr<DracoMesh> openDraco(const tinygltf::Primitive& source,
+                                                       uint64_t& vertex_count,
+                                                       uint64_t& index_count,
+                                                       const std::string& pointer,
+                                                       const std::string& user);
     [[nodiscard]] std::vector<uint32_t> readIndices(const tinygltf::Primitive& source,
                                                     int accessor,
                                                     const DracoMesh* draco,

@@ -34,12 +34,12 @@ class VertexSource {
     [[nodiscard]] std::vector<glm::vec<N, float>> vectors(const char* semantic, size_t count) {
         const int index = accessor(semantic);
         const std::string user = user_ + " " + semantic;
+        if (draco_ != nullptr && draco_->has(semantic)) {
+            return draco_->vectors<N>(semantic, accessors_.normalized(index, user), user);
+        }
         if (accessors_.count(index, user) != count) {
             fail(user + " has " + std::to_string(accessors_.count(index, user)) +
                  " elements; right is " + std::to_string(count) + ", as POSITION has");
-        }
-        if (draco_ != nullptr && draco_->has(semantic)) {
-            return draco_->vectors<N>(semantic, accessors_.normalized(index, user), user);
         }
         return accessors_.vectors<N>(index, user, NotFinite::kKept);
     }

@@ -57,6 +57,7 @@ inline constexpr WarningKind kNoTriangles{"MODE_NOT_DRAWN", kWarning};
 inline constexpr WarningKind kUnknownMode{"VALUE_NOT_IN_LIST", kWarning};
 inline constexpr WarningKind kCountOff{"MESH_PRIMITIVE_INCOMPATIBLE_MODE", kWarning};
 inline constexpr WarningKind kNoTexcoord{"MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", kWarning};
+inline constexpr WarningKind kDracoCounts{"DRACO_COUNTS_NOT_THE_ACCESSORS", kWarning};
 // Skins and animations.
 inline constexpr WarningKind kUnresolved{"UNRESOLVED_REFERENCE", kWarning};
 inline constexpr WarningKind kWeightSum{"ACCESSOR_WEIGHTS_NON_NORMALIZED", kInformation};
