@@ -90,6 +90,7 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
             std::move(first.context),
             std::move(memory),
             Seconds(limit_s),
+            first.scene->files,
             [maker, scene_bytes, shares = std::make_shared<ReadShares>()](
                 const catalogue::Offered& offered, const ProgressReport& report_on) {
                 const auto share = shares->take(scene_bytes);
@@ -146,7 +147,8 @@ std::shared_ptr<catalogue::Catalogue> catalogueOf(const ServeOptions& options) {
     const catalogue::Offered hall{"builtin", "hall", "", "builtin", 0, 0};
     std::vector<catalogue::Offered> always{hall};
     if (!isBuiltin(options.scene)) {
-        if (auto first = catalogue::offerFile(options.scene, options.scenes)) {
+        std::error_code gone; // reading it says so
+        if (auto first = catalogue::offerFile(options.scene, options.scenes, gone)) {
             always.insert(always.begin(), std::move(*first));
         }
     }

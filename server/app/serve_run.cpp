@@ -45,8 +45,8 @@ ServeRun::ServeRun(ServeRunOptions options)
       loop_(pool_, loopOptions()) {
     if (options_.catalogue) {
         watch_.emplace(options_.catalogue->folder(), catalogue::Catalogue::kDeepest, kFolderRest,
-                       [this] { rescan(); });
-        rescan(); // what has changed before it was watched
+                       [catalogue = options_.catalogue] { return catalogue->rescan(); });
+        watch_->lookAgain(); // what has changed before it was watched
     }
 }
 
@@ -66,9 +66,9 @@ void ServeRun::giveUp(const std::string& why) {
     server_->giveUp(why);
 }
 
-void ServeRun::rescan() const {
-    if (options_.catalogue) {
-        options_.catalogue->rescan();
+void ServeRun::rescan() {
+    if (watch_) {
+        watch_->lookAgain();
     }
 }
 
@@ -84,8 +84,14 @@ std::shared_ptr<stream::SceneHost> ServeRun::makeScenes() {
     scenes.read = [this](const std::string& id,
                          const ProgressReport& report) -> Result<stream::ReadScene> {
         const auto offered = options_.catalogue->find(id);
-        return offered ? read_other_(*offered, report)
-                       : Error{ErrorCode::kScene, "the file is not there any more"};
+        if (!offered) {
+            return Error{ErrorCode::kScene, "the file is not there any more"};
+        }
+        auto read = read_other_(*offered, report);
+        if (read) {
+            options_.catalogue->noteRead(id, offered->version, read->scene->files);
+        }
+        return read;
     };
     return std::make_shared<stream::SceneHost>(std::move(scenes));
 }
@@ -104,18 +110,20 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
     server_->metrics().watchLog(logLinesLost);
     loop.make_source = [this, heartbeat = loop.heartbeat] {
         net::Service& service = server_->service();
+        const auto offered = options_.catalogue ? options_.catalogue->listing()->scenes().front()
+                                                : catalogue::Offered();
         OpenedScene opened = options_.open([&service](const Progress& progress) {
             service.setLoading(progress);
             return true;
         });
-        if (options_.catalogue) {
-            opened.context.scene_id = options_.catalogue->listing()->scenes().front().id;
-        }
+        opened.context.scene_id = offered.id;
         auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
         if (scenes_) {
             read_other_ = std::move(opened.read_other);
             server_->metrics().watchScenes([scenes = scenes_] { return scenes->counts(); });
-            scenes_->begin(*opened.source, context, opened.scene_bytes, [this] { loop_.wake(); });
+            scenes_->begin(*opened.source, context, offered.version, opened.scene_bytes,
+                           [this] { loop_.wake(); });
+            options_.catalogue->noteRead(offered.id, offered.version, std::move(opened.files));
         }
         server_->metrics().watchMemory(std::move(opened.memory));
         if (const double rate_hz = context->defaults.min_rate_hz; rate_hz > 0) {

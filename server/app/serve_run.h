@@ -5,6 +5,7 @@
 #include "app/device_losses.h"
 #include "catalogue/catalogue.h"
 #include "catalogue/folder_watch.h"
+#include "core/file_stamp.h"
 #include "encode/encode_pool.h"
 #include "net/server.h"
 #include "session/session_context.h"
@@ -28,9 +29,10 @@ struct OpenedScene {
     std::unique_ptr<stream::FrameSource> source;
     session::SessionContext context;
     std::function<std::vector<MemoryUse>()> memory; // what the device's is used for; any thread
-    Seconds step_limit{0};    // of the render thread, see net::Serving; 0: none
-    ReadOther read_other{};   // null: there is no other scene
-    uint64_t scene_bytes = 0; // that others may take of the device's memory, together
+    Seconds step_limit{0};            // of the render thread, see net::Serving; 0: none
+    std::vector<StampedFile> files{}; // scene::Scene
+    ReadOther read_other{};           // null: there is no other scene
+    uint64_t scene_bytes = 0;         // that others may take of the device's memory, together
 };
 
 struct ServeRunOptions {
@@ -65,7 +67,7 @@ class ServeRun {
     // Closes the connections whose token was taken away; after the gate has loaded.
     void checkTokens() { server_->service().announce(); }
     // Looks at the folder of scenes again; any thread.
-    void rescan() const;
+    void rescan();
     // The device is gone: notes it, and tells every viewer.
     void giveUp(const std::string& why);
     // Whether the render thread moves; an error says for how long it has not.

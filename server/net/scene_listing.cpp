@@ -100,13 +100,13 @@ std::variant<Page, Response> pageIn(const Request& request, const catalogue::Lis
             }
             page.limit = *limit;
         } else if (said.key == "after") {
-            const auto place = listing.placeOf(said.value);
-            if (!place) {
+            const auto begin = listing.placeAfter(said.value);
+            if (!begin) {
                 return refused(http::status::bad_request, "out_of_range", "after",
                                "after is \"" + printable(said.value) +
                                    "\", which is no scene of this server");
             }
-            page.begin = *place + 1;
+            page.begin = *begin;
         }
     }
     return page;

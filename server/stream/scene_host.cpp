@@ -60,10 +60,10 @@ SceneHost::~SceneHost() {
 Result<SharedContext> SceneHost::want(const std::string& id,
                                       const std::shared_ptr<SceneWaiter>& waiter) {
     const std::lock_guard lock(mutex_);
-    if (first_ && id == first_->scene_id) {
+    const auto version = options_.offers(id);
+    if (isFirst(id, version)) {
         return first_;
     }
-    const auto version = options_.offers(id);
     if (!version) {
         return Error{ErrorCode::kInvalidArgument,
                      "is \"" + printable(id) + "\", which is no scene of this server"};
@@ -92,10 +92,10 @@ Result<SharedContext> SceneHost::want(const std::string& id,
 session::SceneReport SceneHost::reportOf(const std::string& id) const {
     using session::SceneStanding;
     const std::lock_guard lock(mutex_);
-    if (first_ && first_->scene_id == id) {
+    const auto version = options_.offers(id);
+    if (isFirst(id, version)) {
         return {SceneStanding::kReady, {}, session::contentsOf(first_->scene)};
     }
-    const auto version = options_.offers(id);
     if (!version) {
         return {};
     }
@@ -138,13 +138,19 @@ session::SceneCounts SceneHost::counts() const {
 
 void SceneHost::begin(FrameSource& device,
                       SharedContext first,
+                      uint64_t first_version,
                       uint64_t scene_bytes,
                       std::function<void()> wake) {
     const std::lock_guard lock(mutex_);
     device_ = &device;
     first_ = std::move(first);
+    first_version_ = first_version;
     scene_bytes_ = scene_bytes;
     wake_ = std::move(wake);
+}
+
+bool SceneHost::isFirst(const std::string& id, std::optional<uint64_t> version) const {
+    return first_ && id == first_->scene_id && (!version || *version == first_version_);
 }
 
 SceneSource& SceneHost::sourceOf(const session::SessionContext* scene) {

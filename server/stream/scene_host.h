@@ -59,10 +59,12 @@ class SceneHost final : public session::ScenePort {
     [[nodiscard]] session::SceneReport reportOf(const std::string& id) const override;
     void dismiss(const std::string& id, const std::weak_ptr<session::SceneWaiter>& waiter) override;
 
-    // Render thread. The device and its first scene are there. Scenes beside that may take so many
-    // bytes of the device's memory together. `wake` has work() called soon.
+    // Render thread. The device and its first scene are there, as it was at that version. Scenes
+    // beside that may take so many bytes of the device's memory together. `wake` has work() called
+    // soon.
     void begin(FrameSource& device,
                session::SharedContext first,
+               uint64_t first_version,
                uint64_t scene_bytes,
                std::function<void()> wake);
     // Does a slice of what is to be done; when more is to be, none: wake() tells. Throws
@@ -111,6 +113,8 @@ class SceneHost final : public session::ScenePort {
     [[nodiscard]] bool isWanted(const std::string& id) const;
     void putAside(const std::string& id);
     [[nodiscard]] Result<void> prepare(const std::string& id, ReadScene read);
+    // Under the lock: whether the first scene is what is offered by this name.
+    [[nodiscard]] bool isFirst(const std::string& id, std::optional<uint64_t> version) const;
     // Under the lock: has scenes leave for so many more bytes. Errors: kCapacity.
     [[nodiscard]] Result<void> makeRoom(uint64_t bytes, const std::string& name);
     void keepContents(const std::string& id, Contents contents);
@@ -138,6 +142,7 @@ class SceneHost final : public session::ScenePort {
     FrameSource* device_ = nullptr;
     uint64_t scene_bytes_ = 0;
     session::SharedContext first_;
+    uint64_t first_version_ = 0;
     std::function<void()> wake_ = [] {};
     std::vector<std::jthread> readers_; // last: they end before what they use
 };

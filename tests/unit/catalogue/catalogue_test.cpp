@@ -7,6 +7,8 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <string>
+#include <sys/resource.h>
+#include <system_error>
 
 namespace froxel::catalogue {
 namespace {
@@ -36,6 +38,7 @@ class CatalogueTest : public testing::Test {
         return found;
     }
 
+    std::error_code failed_;
     const fs::path folder_ = fs::path(testing::TempDir()) / "froxel_catalogue_test";
 };
 
@@ -63,13 +66,91 @@ TEST_F(CatalogueTest, WhatIsHiddenOrLeadsOutOfTheFolder_IsNotOffered) {
     fs::create_symlink(outside, folder_ / "link.glb");
     fs::create_directory_symlink(folder_, folder_ / "circle");
     write("scene.glb");
-    fs::create_symlink(folder_ / "scene.glb", folder_ / "also.glb");
     const Catalogue catalogue({}, folder_);
     fs::remove(outside);
-    for (const Offered& scene : catalogue.listing()->scenes()) {
-        EXPECT_EQ(scene.path, "scene.glb");
-    }
-    EXPECT_EQ(catalogue.listing()->scenes().size(), 1U);
+    EXPECT_THAT(paths(catalogue), ElementsAre("scene.glb"));
+}
+
+// As Kubernetes mounts a ConfigMap: an update moves a link, and with it where all links lead.
+TEST_F(CatalogueTest, FileOfALink_KeepsItsPathAndId_AndIsAnotherVersionWhereItLeadsElsewhere) {
+    write("..first/a.glb");
+    write("..second/a.glb");
+    fs::create_directory_symlink("..first", folder_ / "..data");
+    fs::create_symlink("..data/a.glb", folder_ / "a.glb");
+    Catalogue catalogue({}, folder_);
+    ASSERT_THAT(paths(catalogue), ElementsAre("a.glb"));
+    const Offered before = catalogue.listing()->scenes()[0];
+    EXPECT_EQ(before.name, "a");
+    EXPECT_EQ(fs::path(before.source), fs::canonical(folder_ / "..first/a.glb"));
+
+    fs::create_directory_symlink("..second", folder_ / "..new");
+    fs::rename(folder_ / "..new", folder_ / "..data");
+    EXPECT_TRUE(catalogue.rescan());
+    ASSERT_THAT(paths(catalogue), ElementsAre("a.glb"));
+    const Offered after = catalogue.listing()->scenes()[0];
+    EXPECT_EQ(after.id, before.id);
+    EXPECT_NE(after.version, before.version);
+    EXPECT_EQ(fs::path(after.source), fs::canonical(folder_ / "..second/a.glb"));
+}
+
+TEST_F(CatalogueTest, FileThatReadingItOpened_ItsChangeIsAnotherVersion) {
+    const fs::path scene = write("a.gltf");
+    const fs::path texture = write("a.png", "one");
+    const fs::path missing = folder_ / "b.png";
+    Catalogue catalogue({}, folder_);
+    const auto version = [&] { return catalogue.listing()->scenes()[0].version; };
+    const std::string id = catalogue.listing()->scenes()[0].id;
+    const auto read = [&] {
+        catalogue.noteRead(
+            id, version(),
+            {{scene, stampOf(scene)}, {texture, stampOf(texture)}, {missing, stampOf(missing)}});
+    };
+    read();
+    uint64_t before = version();
+    catalogue.rescan();
+    EXPECT_EQ(version(), before);
+    // Of the same size, and of the same time.
+    const auto time = fs::last_write_time(texture);
+    fs::remove(texture);
+    write("a.png", "two");
+    fs::last_write_time(texture, time);
+    catalogue.rescan();
+    EXPECT_NE(version(), before);
+    read();
+    before = version();
+    write("b.png");
+    catalogue.rescan();
+    EXPECT_NE(version(), before) << "it was not there when the scene was read";
+    catalogue.noteRead(id, version(), {{scene, stampOf(scene)}, {texture, 1}});
+    EXPECT_NE(version(), before + 1) << "it changed while the scene was read";
+    before = version();
+    catalogue.noteRead(id, before - 1, {{texture, 1}});
+    EXPECT_EQ(version(), before) << "that version is listed no more";
+}
+
+TEST_F(CatalogueTest, RunsCountFromOtherVersions) {
+    write("a.glb");
+    EXPECT_NE(Catalogue({}, folder_).listing()->scenes()[0].version,
+              Catalogue({}, folder_).listing()->scenes()[0].version)
+        << "what it refers to may have changed between them";
+}
+
+// Whoever serves many connections runs out of descriptors.
+TEST_F(CatalogueTest, FolderCannotBeReadForAWhile_WhatWasThereStays) {
+    write("a.glb");
+    write("sub/b.glb");
+    Catalogue catalogue({}, folder_);
+    write("c.glb");
+    rlimit limit{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
+    const rlimit none{0, limit.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+    const bool complete = catalogue.rescan();
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &limit), 0);
+    EXPECT_FALSE(complete);
+    EXPECT_THAT(paths(catalogue), ElementsAre("a.glb", "sub/b.glb"));
+    EXPECT_TRUE(catalogue.rescan());
+    EXPECT_THAT(paths(catalogue), ElementsAre("a.glb", "c.glb", "sub/b.glb"));
 }
 
 TEST_F(CatalogueTest, FoldersDeeperThanTheLimit_AreNotEntered) {
@@ -106,20 +187,36 @@ TEST_F(CatalogueTest, Rescan_FindsWhatIsNewChangedAndGone) {
 TEST_F(CatalogueTest, WhatIsOfferedAnyway_ComesFirstAndOnce) {
     const fs::path first = write("z/first.glb");
     write("a.glb");
-    const auto offered = offerFile(first, folder_);
+    const auto offered = offerFile(first, folder_, failed_);
     ASSERT_TRUE(offered);
     EXPECT_EQ(offered->path, "z/first.glb");
     const Catalogue catalogue({*offered, {"builtin", "hall", "", "builtin", 0, 0}}, folder_);
     EXPECT_THAT(paths(catalogue), ElementsAre("z/first.glb", "", "a.glb"));
 }
 
+TEST_F(CatalogueTest, WhatIsOfferedAnyway_IsAnotherVersionWhenItChanges) {
+    const fs::path first = write("first.glb");
+    const auto offered = offerFile(first, folder_ / "other", failed_);
+    ASSERT_TRUE(offered);
+    Catalogue catalogue({*offered}, folder_ / "other");
+    const uint64_t before = catalogue.listing()->scenes()[0].version;
+    write("first.glb", "longer");
+    catalogue.rescan();
+    EXPECT_NE(catalogue.listing()->scenes()[0].version, before);
+    EXPECT_EQ(catalogue.listing()->scenes()[0].bytes, 6U);
+    fs::remove(first);
+    catalogue.rescan();
+    EXPECT_EQ(catalogue.listing()->scenes().size(), 1U);
+}
+
 TEST_F(CatalogueTest, FileOutsideTheFolder_IsOfferedByItself) {
     const fs::path file = write("models/Fox.glb");
-    const auto offered = offerFile(file, folder_ / "other");
+    const auto offered = offerFile(file, folder_ / "other", failed_);
     ASSERT_TRUE(offered);
     EXPECT_EQ(offered->path, "");
     EXPECT_EQ(offered->name, "Fox");
-    EXPECT_FALSE(offerFile(folder_ / "none.glb", folder_));
+    EXPECT_FALSE(offerFile(folder_ / "none.glb", folder_, failed_));
+    EXPECT_EQ(failed_, std::errc::no_such_file_or_directory);
 }
 
 TEST_F(CatalogueTest, FolderThatIsGone_OffersNothingMore) {

@@ -39,7 +39,7 @@ class FolderWatchTest : public testing::Test {
 };
 
 TEST_F(FolderWatchTest, NewChangedAndGoneFiles_AreHeardOf) {
-    const FolderWatch watch(folder_, 8, kRest, [this] { ++told_; });
+    const FolderWatch watch(folder_, 8, kRest, [this] { return ++told_ > 0; });
     write("a.glb");
     ASSERT_TRUE(hears(0));
     int before = told_;
@@ -54,7 +54,7 @@ TEST_F(FolderWatchTest, NewChangedAndGoneFiles_AreHeardOf) {
 }
 
 TEST_F(FolderWatchTest, NewFolder_IsWatchedToo) {
-    const FolderWatch watch(folder_, 8, kRest, [this] { ++told_; });
+    const FolderWatch watch(folder_, 8, kRest, [this] { return ++told_ > 0; });
     fs::create_directories(folder_ / "new" / "below");
     ASSERT_TRUE(hears(0));
     const int before = told_;
@@ -67,7 +67,7 @@ TEST_F(FolderWatchTest, FileThatIsWritten_IsToldOfWhenItRests) {
     std::atomic<bool> early = false;
     const FolderWatch watch(folder_, 8, Seconds(0.5), [&] {
         early = early || !written;
-        ++told_;
+        return ++told_ > 0;
     });
     Seconds longest{0}; // between two writes: a busy machine may rest longer than the watch waits
     {
@@ -86,8 +86,49 @@ TEST_F(FolderWatchTest, FileThatIsWritten_IsToldOfWhenItRests) {
 }
 
 TEST_F(FolderWatchTest, FolderThatIsNotThere_IsNoTrouble) {
-    const FolderWatch watch(folder_ / "none", 8, kRest, [this] { ++told_; });
+    const FolderWatch watch(folder_ / "none", 8, kRest, [this] { return ++told_ > 0; });
     EXPECT_EQ(told_, 0);
+}
+
+TEST_F(FolderWatchTest, FolderIsMovedAwayAndMadeAgain_TheNewOneIsWatched) {
+    const FolderWatch watch(folder_, 8, kRest, [this] { return ++told_ > 0; });
+    const fs::path aside = folder_.string() + "_aside";
+    fs::remove_all(aside);
+    fs::rename(folder_, aside);
+    ASSERT_TRUE(hears(0));
+    int before = told_;
+    fs::create_directories(folder_);
+    ASSERT_TRUE(hears(before));
+    before = told_;
+    write("a.glb");
+    EXPECT_TRUE(hears(before));
+    fs::remove_all(aside);
+}
+
+TEST_F(FolderWatchTest, LinkOnTheWayLeadsElsewhere_TheNewFolderIsWatched) {
+    fs::create_directories(folder_ / "one/models");
+    fs::create_directories(folder_ / "two/models");
+    fs::create_directory_symlink("one", folder_ / "current");
+    const FolderWatch watch(folder_ / "current/models", 8, kRest, [this] { return ++told_ > 0; });
+    fs::create_directory_symlink("two", folder_ / "next");
+    fs::rename(folder_ / "next", folder_ / "current");
+    ASSERT_TRUE(hears(0));
+    const int before = told_;
+    write("two/models/a.glb");
+    EXPECT_TRUE(hears(before));
+}
+
+TEST_F(FolderWatchTest, RightsOfAFileChange_IsHeardOf) {
+    write("a.glb");
+    const FolderWatch watch(folder_, 8, kRest, [this] { return ++told_ > 0; });
+    fs::permissions(folder_ / "a.glb", fs::perms::owner_read);
+    EXPECT_TRUE(hears(0));
+}
+
+TEST_F(FolderWatchTest, NotAllCouldBeLookedAt_IsToldAgainUntilItCould) {
+    FolderWatch watch(folder_, 8, kRest, [this] { return ++told_ > 1; });
+    watch.lookAgain();
+    EXPECT_TRUE(hears(1)) << "nothing has changed";
 }
 
 } // namespace

@@ -91,7 +91,7 @@ class SceneHostTest : public RenderLoopTest {
             session::SessionContext context;
             context.scene_id = "first";
             first_ = std::make_shared<const session::SessionContext>(std::move(context));
-            host_->begin(*source, first_, scene_bytes, [this] { loop_->wake(); });
+            host_->begin(*source, first_, version_, scene_bytes, [this] { loop_->wake(); });
             begun_.set_value();
             return source;
         };
