@@ -10,8 +10,10 @@
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <spdlog/fmt/chrono.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace froxel::net {
@@ -24,6 +26,13 @@ namespace {
 // How long, and how much, a connection may still send after its last answer.
 constexpr std::chrono::seconds kLinger{2};
 constexpr size_t kMaxDiscardedBytes = size_t{256} * 1024;
+constexpr size_t kFirstBytes = 512; // what each waiting connection has room for
+
+// RFC 9110, 5.6.7.
+std::string dateOf(std::chrono::system_clock::time_point now) {
+    return fmt::format("{:%a, %d %b %Y %H:%M:%S GMT}",
+                       fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
+}
 
 } // namespace
 
@@ -112,12 +121,36 @@ void HttpSession::read() {
             self->stream_.next_layer().cancel();
         }
     });
-    http::async_read_header(stream_, buffer_, *parser_,
-                            [self = shared_from_this()](beast::error_code error, size_t) {
-                                if (!guarded("http read", [&] { self->onRead(error); })) {
-                                    self->close();
+    readHeader();
+}
+
+// Empty lines before a request are no part of it (RFC 9112, 2.2); Beast does not skip them.
+void HttpSession::readHeader() {
+    const auto bytes = static_cast<const char*>(buffer_.data().data());
+    const std::string_view ahead(bytes, buffer_.size());
+    buffer_.consume(std::min(ahead.find_first_not_of("\r\n"), ahead.size()));
+    const auto then = [self = shared_from_this()](auto next) {
+        return [self, next](beast::error_code error, size_t size) {
+            if (!guarded("http read", [&] { next(*self, error, size); })) {
+                self->close();
+            }
+        };
+    };
+    if (buffer_.size() > 0) {
+        http::async_read_header(
+            stream_, buffer_, *parser_,
+            then([](HttpSession& self, beast::error_code error, size_t) { self.onRead(error); }));
+        return;
+    }
+    stream_.async_read_some(buffer_.prepare(kFirstBytes),
+                            then([](HttpSession& self, beast::error_code error, size_t size) {
+                                self.buffer_.commit(size);
+                                if (error) {
+                                    self.onRead(error);
+                                } else {
+                                    self.readHeader();
                                 }
-                            });
+                            }));
 }
 
 void HttpSession::onRead(beast::error_code error) {
@@ -251,6 +284,7 @@ void HttpSession::upgrade(Request request) {
 void HttpSession::write(LateAnswer answer) {
     answer_ = std::move(answer);
     Response& response = answer_.response;
+    response.set(http::field::date, dateOf(std::chrono::system_clock::now()));
     if (stream_.encrypted()) { // a browser that has seen this asks for http here no more; RFC 6797
         response.set("Strict-Transport-Security", "max-age=31536000");
     }

@@ -41,6 +41,7 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     [[nodiscard]] bool draining() const;
     void shakeHands();
     void read();
+    void readHeader();
     void onRead(boost::beast::error_code error);
     void onReadError(boost::beast::error_code error);
     void onRequest();

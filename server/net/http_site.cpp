@@ -48,6 +48,10 @@ std::string etagOf(const std::string& text) {
     return fmt::format("\"{:016x}\"", std::hash<std::string>()(text));
 }
 
+bool hasAnything(const Request& request) {
+    return request[http::field::if_none_match] == "*";
+}
+
 // A list, of which proxies that compress weaken each (RFC 9110 section 13.1.2).
 bool hasAlready(const Request& request, std::string_view etag) {
     return request[http::field::if_none_match].find(boost::beast::string_view(
@@ -58,7 +62,7 @@ Response taggedResponse(const Request& request,
                         std::string_view content_type,
                         const std::string& body,
                         const std::string& etag) {
-    const bool unchanged = hasAlready(request, etag);
+    const bool unchanged = hasAlready(request, etag) || hasAnything(request);
     Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
                                      content_type, unchanged ? std::string() : body);
     response.set(http::field::etag, etag);

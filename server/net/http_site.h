@@ -120,6 +120,9 @@ struct ApiRefusal {
 // A file may have any name: what of a text is no UTF-8 is replaced.
 [[nodiscard]] std::string textOf(const nlohmann::ordered_json& json);
 
+// Whether the request has something already of whatever is answered: If-None-Match: *.
+[[nodiscard]] bool hasAnything(const Request& request);
+
 // The tag of what is a function of this text alone.
 [[nodiscard]] std::string etagOf(const std::string& text);
 // Whether who asks has what this tag is of already (If-None-Match).

@@ -3,6 +3,7 @@
 #include "net/request_form.h"
 #include "net/still_answers.h"
 #include "settings/settings.h"
+#include "still/still_view.h"
 
 #include <boost/url/encode.hpp>
 #include <boost/url/parse.hpp>
@@ -53,8 +54,12 @@ Response linkPreview(const Request& request, bool secure, bool pictures) {
             append(page, said.key, said.value);
             continue;
         }
+        if (said.key.empty() && !said.has_value) { // nothing between two &
+            continue;
+        }
         append(fragment, said.key, said.value);
-        if (said.key != "size" && said.key != "format") {
+        // What others add to links (fbclid, utm_source) is the page's to tell of.
+        if (said.key == "scene" || (said.key != "size" && still::isViewName(said.key))) {
             append(still, said.key, said.value);
         }
     }

@@ -71,10 +71,6 @@ Announcement announcementOf(const Request& request) {
     return announcement;
 }
 
-Caller callerOf(const Request& request, const asio::ip::address& peer, const Site& site) {
-    return callerAt(clientAddress(peer, viewOf(request["X-Forwarded-For"]), site.trusted_proxies));
-}
-
 // A proxy with TLS says so; a page cannot.
 bool cameSecurely(const Request& request, const asio::ip::address& peer, const Site& site) {
     return site.encrypted || cameByTls(peer, viewOf(request["X-Forwarded-For"]),
@@ -91,6 +87,14 @@ Fetch fetchOf(const Request& request, const Site& site) {
                          fieldOf(request, "Sec-Fetch-Dest"), fieldOf(request, "Origin"),
                          fieldOf(request, "Referer")},
                         viewOf(request[http::field::host]), site.allowed_origins);
+}
+
+// A page of another site in a browser of this machine is no local caller: limits hold for it.
+Caller callerOf(const Request& request, const asio::ip::address& peer, const Site& site) {
+    Caller caller =
+        callerAt(clientAddress(peer, viewOf(request["X-Forwarded-For"]), site.trusted_proxies));
+    caller.local = caller.local && fetchOf(request, site) != Fetch::kForeign;
+    return caller;
 }
 
 // Pages of other sites must not have the server work; none where this request may.
@@ -141,6 +145,14 @@ admitted(const Request& request, const asio::ip::address& peer, const Site& site
     spdlog::warn("event=token_refused peer={} reason={}", caller.address.key,
                  token.empty() ? "missing" : "unknown");
     return {};
+}
+
+// A picture that everybody may ask for may be shown by any page, but not read by it (no CORS).
+void letOthersShow(const Request& request, const Site& site, Response& response) {
+    letOthersRead(request, site, response);
+    if (!site.gate) {
+        response.set("Cross-Origin-Resource-Policy", "cross-origin");
+    }
 }
 
 // By which a page knows the reason of a refusal, as of a close.
@@ -241,15 +253,20 @@ PublicSite::answerLater(const Request& request,
                         const asio::ip::address& peer,
                         std::function<void(LateAnswer)> done) const {
     if (path == kLinkPath) {
-        done({linkPreview(request, cameSecurely(request, peer, *site_), site_->gate == nullptr)});
+        Response preview =
+            linkPreview(request, cameSecurely(request, peer, *site_), site_->gate == nullptr);
+        letOthersShow(request, *site_, preview);
+        done({std::move(preview)});
         return [] {};
     }
     if (!StillAnswers::has(path)) {
         return {};
     }
-    if (auto refused = refuseForeign(request, *site_)) {
-        done({std::move(*refused)});
-        return [] {};
+    if (!site_->shows_elsewhere) {
+        if (auto refused = refuseForeign(request, *site_)) {
+            done({std::move(*refused)});
+            return [] {};
+        }
     }
     const auto caller = admitted(request, peer, *site_);
     if (!caller) {
@@ -258,7 +275,7 @@ PublicSite::answerLater(const Request& request,
     }
     return site_->stills->answer(request, path, *caller, site_->gate == nullptr,
                                  [site = site_, request, done](LateAnswer answer) {
-                                     letOthersRead(request, *site, answer.response);
+                                     letOthersShow(request, *site, answer.response);
                                      done(std::move(answer));
                                  });
 }

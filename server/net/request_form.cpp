@@ -35,6 +35,9 @@ Result<void> settleForm(Request& request) {
                          "the field " + std::string(name) + " came more than once"};
         }
     }
+    if (request.version() >= 11 && request.count(http::field::host) == 0) { // RFC 9112, 3.2
+        return Error{ErrorCode::kInvalidArgument, "the field Host is missing"};
+    }
     // No request here has a body, and one whose end others see elsewhere hides the next (RFC 9112,
     // 6.1 and 11.2).
     if (request.count(http::field::transfer_encoding) > 0) {

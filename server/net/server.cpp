@@ -39,6 +39,8 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& lon
     site->allowed_origins = options.allowed_origins;
     site->encrypted = options.tls != nullptr;
     site->gate = options.gate;
+    site->shows_elsewhere =
+        !options.gate && (!isLoopback(options.bind.address) || !options.host_names.empty());
     site->connections_per_address = std::max(1U, options.connections_max / 2);
     site->trusted_proxies = TrustedProxies::parse(options.trusted_proxies).value();
     site->content_policy = contentPolicy(options.reconnect_url);
@@ -50,7 +52,8 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& lon
     site->scenes = std::make_shared<const SceneListing>(options.catalogue, site->service);
     site->still_desk = std::make_shared<still::StillDesk>(options.stills);
     site->stills =
-        std::make_shared<const StillAnswers>(site->still_desk, options.catalogue, site->service);
+        std::make_shared<StillAnswers>(site->still_desk, options.catalogue, site->service);
+    site->service->subscribe(site->stills);
     site->metrics->watchStills([desk = site->still_desk] { return desk->counts(); });
     site->long_work = &long_work;
     return site;
@@ -126,8 +129,10 @@ struct Server::Impl {
                                               options.connections_max,
                                               std::make_shared<PublicSite>(site),
                                               options.tls)),
-          lobby_alarm(io, [this] { site->lobby->expire(Clock::now()); }),
-          still_alarm(io, [this] { site->still_desk->expire(Clock::now()); }) {
+          lobby_alarm(io, [this] { site->lobby->expire(Clock::now()); }), still_alarm(io, [this] {
+              site->stills->expire(Clock::now());
+              site->still_desk->expire(Clock::now());
+          }) {
         if (!options.admin.address.empty()) {
             const std::string& address = options.admin.address;
             admin.emplace(options.admin,
@@ -142,6 +147,7 @@ struct Server::Impl {
         }
         site->lobby->setAlarm([this](TimePoint due) { lobby_alarm.set(due); });
         site->still_desk->setAlarm([this](TimePoint due) { still_alarm.set(due); });
+        site->stills->setAlarm([this](TimePoint due) { still_alarm.set(due); });
         if (options.agones) {
             agones.emplace(*options.agones, hooksForAgones());
         }
@@ -161,6 +167,7 @@ struct Server::Impl {
         threads.clear();
         site->lobby->close(); // connections that end with `io` set off no alarm
         site->still_desk->close();
+        site->stills->close();
     }
 
     AgonesHooks hooksForAgones() {

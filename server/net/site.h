@@ -26,6 +26,9 @@ struct Site {
     std::vector<std::string> allowed_origins; // besides the server's own
     bool encrypted = false;                   // by TLS
     std::shared_ptr<const TokenGate> gate;    // null: everybody is let in
+    // Whether pages of any site may have stills drawn, to show them: not from a person's own
+    // machine, nor where a token is asked for.
+    bool shows_elsewhere = false;
     TrustedProxies trusted_proxies;
     uint32_t connections_per_address = 0;
     std::string content_policy; // of the page
@@ -35,7 +38,7 @@ struct Site {
     std::shared_ptr<RequestLimits> request_limits;
     std::shared_ptr<const SceneListing> scenes;
     std::shared_ptr<still::StillDesk> still_desk;
-    std::shared_ptr<const StillAnswers> stills;
+    std::shared_ptr<StillAnswers> stills;
     LongWork* long_work = nullptr; // lives until the network's threads have ended
 };
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <random>
+#include <set>
 #include <utility>
 
 namespace froxel::net {
@@ -31,6 +32,11 @@ constexpr std::array kFormats{
     Format{"exr", settings::Codec::kExr, "image/x-exr"},
     Format{"pfm", settings::Codec::kPfm, "image/x-portable-floatmap"},
 };
+
+// While the first scene is loaded.
+constexpr Seconds kPatience = still::StillLimits().patience;
+constexpr size_t kMostEarly = still::StillLimits().waiting;
+constexpr ptrdiff_t kMostEarlyOfAccount = still::StillLimits().per_account;
 
 std::string_view viewOf(boost::beast::string_view text) {
     return {text.data(), text.size()};
@@ -55,6 +61,12 @@ http::status statusOf(const still::StillRefusal& refusal) {
     return refusal.why.field == "scene" && refusal.why.code == session::RejectCode::kOutOfRange
                ? http::status::not_found
                : http::status::bad_request;
+}
+
+Response unavailable(const std::string& why) {
+    Response response = refused(http::status::service_unavailable, "capacity", "", why);
+    response.set(http::field::retry_after, "5");
+    return response;
 }
 
 // A gallery has no use for why a scene has no thumbnail: it is no error there.
@@ -134,9 +146,12 @@ std::optional<Response> StillAnswers::read(const Request& request,
     if (!target) {
         return refused(http::status::bad_request, "malformed", "", "the address is malformed");
     }
+    std::set<std::string> names;
     for (const auto& said : target->params()) {
-        const auto same = [&](const still::Entry& entry) { return entry.name == said.key; };
-        if (std::ranges::any_of(still.view, same)) {
+        if (said.key.empty() && !said.has_value) { // nothing between two &
+            continue;
+        }
+        if (!names.insert(said.key).second) {
             return refused(http::status::bad_request, "out_of_range", printable(said.key),
                            "is given twice");
         }
@@ -164,23 +179,112 @@ HttpSite::CallOff StillAnswers::answer(const Request& request,
                                        std::string_view path,
                                        const Caller& caller,
                                        bool shared,
-                                       const std::function<void(LateAnswer)>& done) const {
+                                       const Done& done) {
     const auto nothing = [] {};
     const ServiceStatus status = service_->status();
-    if (!status.serving || status.draining || status.lost) {
-        Response response =
-            refused(http::status::service_unavailable, "capacity", "",
-                    status.serving ? "the server is going down" : "the scene is being loaded");
-        response.set(http::field::retry_after, "5");
-        done({std::move(response)});
+    if (status.draining || status.lost) {
+        done({unavailable(status.lost ? "the device was lost" : "the server is going down")});
         return nothing;
     }
+    if (status.serving) {
+        return draw(*status.serving, request, path, caller, shared, done);
+    }
+    const auto early = std::make_shared<Early>();
+    early->account = caller.local && !caller.token ? "" : caller.account().key;
+    early->due = Clock::now() + std::chrono::duration_cast<Clock::duration>(kPatience);
+    early->done = done;
+    early->ask = [this, request, path = std::string(path), caller, shared, done] {
+        return answer(request, path, caller, shared, done);
+    };
+    if (auto call_off = waitForScene(early)) {
+        return std::move(*call_off);
+    }
+    done({unavailable("the scene is being loaded, and too many wait for it")});
+    return nothing;
+}
+
+std::optional<HttpSite::CallOff> StillAnswers::waitForScene(std::shared_ptr<Early> early) {
+    {
+        const std::lock_guard lock(mutex_);
+        const auto of_account = std::ranges::count(early_, early->account,
+                                                   [](const auto& one) { return one->account; });
+        const bool limited = !early->account.empty();
+        if (early_.size() >= kMostEarly || (limited && of_account >= kMostEarlyOfAccount)) {
+            return {};
+        }
+        early_.push_back(early);
+    }
+    alarm_(early->due);
+    onServiceChanged(); // the scene may have come meanwhile
+    return [self = shared_from_this(), early] {
+        {
+            const std::lock_guard lock(self->mutex_);
+            std::erase(self->early_, early);
+        }
+        const std::lock_guard lock(early->mutex);
+        early->called_off = true;
+        if (early->call_off) {
+            early->call_off();
+        }
+    };
+}
+
+void StillAnswers::onServiceChanged() {
+    const ServiceStatus status = service_->status();
+    if (!status.serving && !status.draining && !status.lost) {
+        return;
+    }
+    std::list<std::shared_ptr<Early>> early;
+    {
+        const std::lock_guard lock(mutex_);
+        early.swap(early_);
+    }
+    for (const auto& one : early) {
+        const std::lock_guard lock(one->mutex);
+        if (!one->called_off) {
+            one->call_off = one->ask();
+        }
+    }
+}
+
+void StillAnswers::expire(TimePoint now) {
+    std::list<std::shared_ptr<Early>> over;
+    std::optional<TimePoint> next;
+    {
+        const std::lock_guard lock(mutex_);
+        while (!early_.empty() && early_.front()->due <= now) {
+            over.splice(over.end(), early_, early_.begin());
+        }
+        if (!early_.empty()) {
+            next = early_.front()->due;
+        }
+    }
+    if (next) {
+        alarm_(*next);
+    }
+    for (const auto& one : over) {
+        one->done({unavailable("the scene is still being loaded")});
+    }
+}
+
+void StillAnswers::close() {
+    std::list<std::shared_ptr<Early>> early; // connections end with it
+    const std::lock_guard lock(mutex_);
+    early.swap(early_);
+}
+
+HttpSite::CallOff StillAnswers::draw(const Serving& serving,
+                                     const Request& request,
+                                     std::string_view path,
+                                     const Caller& caller,
+                                     bool shared,
+                                     const Done& done) const {
+    const auto nothing = [] {};
     still::StillRequest still;
     if (auto refusal = read(request, path, still)) {
         done({std::move(*refusal)});
         return nothing;
     }
-    const Serving& serving = *status.serving;
     const Format& format = formatOf(still.codec);
     still.tag = serving.context->server_version + "\n" + serving.context->device_name + "\n" +
                 sceneTag(still.scene) + "\n" + std::string(format.name);
@@ -199,14 +303,20 @@ HttpSite::CallOff StillAnswers::answer(const Request& request,
         done({tagged(makeResponse(http::status::not_modified, format.content_type, {}))});
         return nothing;
     }
+    // Of what there is nothing of yet; whether there will be is found out by drawing it.
+    const bool any = hasAnything(request);
     const bool thumbnail = still.thumbnail;
     const auto account =
         caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
     const auto ticket = desk_->ask(
         {serving.context, serving.port, serving.scenes}, std::move(still), account,
-        [done, tagged, &format, thumbnail](const still::StillOutcome& outcome) {
+        [done, tagged, &format, thumbnail, any](const still::StillOutcome& outcome) {
             if (const auto* refusal = std::get_if<still::StillRefusal>(&outcome)) {
                 done({refusedBy(*refusal, thumbnail)});
+                return;
+            }
+            if (any) {
+                done({tagged(makeResponse(http::status::not_modified, format.content_type, {}))});
                 return;
             }
             done(onItsWay(tagged(makeResponse(http::status::ok, format.content_type, {})),

@@ -2,13 +2,16 @@
 #pragma once
 
 #include "catalogue/catalogue.h"
+#include "core/clock.h"
 #include "net/caller.h"
 #include "net/http_site.h"
 #include "net/service.h"
 #include "still/still_desk.h"
 
 #include <functional>
+#include <list>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,7 +20,9 @@ namespace froxel::net {
 
 inline constexpr std::string_view kStillPath = "/render";
 
-class StillAnswers {
+// Who asks while the server's first scene is loaded waits for it, as long as for a picture.
+class StillAnswers final : public ServiceListener,
+                           public std::enable_shared_from_this<StillAnswers> {
   public:
     static constexpr settings::Size kThumbnailSize{320, 180};
 
@@ -26,6 +31,14 @@ class StillAnswers {
                  std::shared_ptr<const catalogue::Catalogue> catalogue,
                  std::shared_ptr<const Service> service);
 
+    // Told when expire() is due next; any thread, must not block. Set before the first request.
+    void setAlarm(std::function<void(TimePoint)> alarm) { alarm_ = std::move(alarm); }
+    // Ends what has waited too long for the first scene; sets off the alarm for when more is due.
+    void expire(TimePoint now);
+    void onServiceChanged() override;
+    // Lets go of whoever waits for the first scene, unanswered.
+    void close();
+
     // Whether it is asked for something of this.
     [[nodiscard]] static bool has(std::string_view path);
     // As HttpSite::answerLater. `shared`: whether caches between may keep it.
@@ -33,9 +46,29 @@ class StillAnswers {
                                            std::string_view path,
                                            const Caller& caller,
                                            bool shared,
-                                           const std::function<void(LateAnswer)>& done) const;
+                                           const std::function<void(LateAnswer)>& done);
 
   private:
+    using Done = std::function<void(LateAnswer)>;
+    // Of one who asked while the first scene was loaded.
+    struct Early {
+        std::string account;
+        TimePoint due{};
+        Done done;
+        std::function<HttpSite::CallOff()> ask; // again, when it is there
+        std::mutex mutex;
+        bool called_off = false;
+        HttpSite::CallOff call_off; // of what was asked again
+    };
+
+    // None where too many wait.
+    [[nodiscard]] std::optional<HttpSite::CallOff> waitForScene(std::shared_ptr<Early> early);
+    [[nodiscard]] HttpSite::CallOff draw(const Serving& serving,
+                                         const Request& request,
+                                         std::string_view path,
+                                         const Caller& caller,
+                                         bool shared,
+                                         const Done& done) const;
     [[nodiscard]] std::optional<Response>
     read(const Request& request, std::string_view path, still::StillRequest& still) const;
     [[nodiscard]] std::string sceneTag(const std::string& scene) const;
@@ -46,6 +79,9 @@ class StillAnswers {
     const std::shared_ptr<const catalogue::Catalogue> catalogue_;
     const std::shared_ptr<const Service> service_;
     const std::string run_; // another one each time that a server starts
+    std::function<void(TimePoint)> alarm_ = [](TimePoint /*due*/) {};
+    std::mutex mutex_;
+    std::list<std::shared_ptr<Early>> early_; // the oldest first
 };
 
 } // namespace froxel::net

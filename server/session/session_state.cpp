@@ -116,19 +116,15 @@ struct Reducer {
         }
         Outcome outcome = set(command.changes);
         state.playback.follow(animation, SessionState::secondsOf(now));
-        return command.time_s && !outcome ? seek(clips, *command.time_s) : outcome;
+        return command.time_s && !outcome ? seek(*command.time_s) : outcome;
     }
 
-    Outcome seek(const std::vector<scene::Clip>& clips, double time_s) const {
+    // Beyond its end the animation goes on as it repeats.
+    Outcome seek(double time_s) const {
         const uint32_t number = state.settings.animation.number;
-        const double duration_s = number == 0 ? 0 : clips[number - 1].duration_s;
-        if (number == 0 || time_s > duration_s) {
+        if (number == 0) {
             return outOfRange("animation_time",
-                              "is " + numberText(time_s) +
-                                  (number == 0
-                                       ? "; no animation is chosen"
-                                       : "; it must be from 0 to " + numberText(duration_s) +
-                                             " for animation " + numberText(number)));
+                              "is " + numberText(time_s) + "; no animation is chosen");
         }
         state.playback.seek(time_s, SessionState::secondsOf(now));
         return {};

@@ -155,7 +155,7 @@ std::optional<Rejection> read(Asked& asked, const Entries& entries) {
         }
         const auto* row = std::ranges::find(kRows, name, &Row::name);
         const auto* setting = session::findSetting(name);
-        if (row == kRows.end() && setting == nullptr) {
+        if (!isViewName(name)) {
             return Rejection{RejectCode::kUnsupported, 0, printable(name),
                              printable(name) + " is no name of the page's address"};
         }
@@ -251,6 +251,11 @@ void stand(SessionState& state, TimePoint now, double light_time_s) {
 }
 
 } // namespace
+
+bool isViewName(std::string_view name) {
+    return name == "look" || std::ranges::find(kRows, name, &Row::name) != kRows.end() ||
+           session::findSetting(name) != nullptr;
+}
 
 session::CommandResult<SessionState>
 viewOf(const session::SharedContext& scene, const Entries& entries, TimePoint now) {

@@ -7,6 +7,7 @@
 #include "session/session_state.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace froxel::still {
@@ -18,6 +19,9 @@ struct Entry {
     bool operator==(const Entry&) const = default;
 };
 using Entries = std::vector<Entry>;
+
+// Whether entries may have this name; "look" is one.
+[[nodiscard]] bool isViewName(std::string_view name);
 
 // What a new session on this scene begins with, and over it what the entries say; `look`, a look's
 // name, before the others. Lights stand where they are at light_time, animations at

@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <gmock/gmock.h>
 #include <string>
 #include <tuple>
 #include <unistd.h>
@@ -97,6 +100,8 @@ TEST_F(HttpTest, Still_ThatCannotBe_IsToldWhatWouldBeRight) {
     const std::tuple<std::string, int, std::string> cases[] = {
         {"lights=x", 400, R"("field":"lights")"},
         {"lights=1&lights=2", 400, "lights is given twice"},
+        {"format=png&format=jpg", 400, "format is given twice"},
+        {"scene=&scene=a", 400, "scene is given twice"},
         {"format=gif", 400, "it must be jpg, png, exr"},
         {"%6e%00=1", 400, R"(n\\x00 is no name)"},
         {"scene=other", 404, "this server has one scene"},
@@ -114,12 +119,58 @@ TEST_F(HttpTest, Still_ThatCannotBe_IsToldWhatWouldBeRight) {
     EXPECT_EQ(statusOf(get("/rendering")), 404);
 }
 
-TEST(HttpLoading, Still_WaitsForTheScene_ByComingBack) {
+TEST_F(HttpTest, Still_OddQueriesAndConditions) {
+    EXPECT_EQ(statusOf(httpGetOnceThere(server_.port(), "/render?&size=64x48&&lights=3&")), 200);
+    const std::string any = "If-None-Match: *\r\n";
+    EXPECT_EQ(statusOf(get("/render?size=64x48&lights=5", any)), 304);
+    EXPECT_EQ(statusOf(get("/render?size=64x48&lights=x", any)), 400);
+    EXPECT_EQ(statusOf(get("/", any)), 304);
+}
+
+// What a page of another site may show of it; a browser tells of such a page, a program of none.
+TEST_F(HttpTest, Still_MayBeShownElsewhere_WhereNoTokenIsAsked) {
+    const std::string query = "/render?size=64x48&lights=3";
+    const std::string answer = httpGetOnceThere(server_.port(), query);
+    EXPECT_NE(answer.find("Cross-Origin-Resource-Policy: cross-origin"), std::string::npos);
+    EXPECT_NE(get("/").find("Cross-Origin-Resource-Policy: same-origin"), std::string::npos);
+    const std::string foreign = "Sec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: no-cors\r\n"
+                                "Sec-Fetch-Dest: image\r\n";
+    EXPECT_EQ(statusOf(get(query, foreign)), 403) << "of a server of this machine alone";
+    TestServer named({.host_names = {"froxel.example"}});
+    static_cast<void>(httpGetOnceThere(named.port(), query));
+    const std::string shown = httpGet(named.port(), query, foreign);
+    EXPECT_EQ(statusOf(shown), 200);
+    EXPECT_NE(shown.find("Cross-Origin-Resource-Policy: cross-origin"), std::string::npos);
+    EXPECT_EQ(shown.find("Access-Control-Allow-Origin"), std::string::npos) << "but not read";
+    EXPECT_EQ(statusOf(httpGet(named.port(), "/api/v1/scenes", foreign)), 403);
+}
+
+TEST(HttpLoading, Still_WaitsForTheScene) {
     TestServer server({.open_at_once = false});
-    const std::string answer = httpGet(server.port(), "/render");
-    EXPECT_EQ(statusOf(answer), 503);
-    EXPECT_NE(answer.find("Retry-After: 5"), std::string::npos);
+    auto answer = std::async(std::launch::async,
+                             [&] { return httpGet(server.port(), "/render?size=64x48&lights=3"); });
+    EXPECT_EQ(answer.wait_for(std::chrono::milliseconds(300)), std::future_status::timeout);
     server.open();
+    EXPECT_EQ(statusOf(answer.get()), 200);
+}
+
+TEST_F(HttpTest, Answer_HasItsDate) {
+    EXPECT_THAT(get("/"),
+                testing::ContainsRegex("Date: [A-Z][a-z]{2}, [0-9]{2} [A-Z][a-z]{2} [0-9]{4} "
+                                       "[0-9]{2}:[0-9]{2}:[0-9]{2} GMT\r\n"));
+}
+
+TEST_F(HttpTest, EmptyLinesBeforeARequest_AreNoPartOfIt) {
+    const std::string request = "GET / HTTP/1.1\r\nHost: localhost\r\n";
+    const std::string answer =
+        exchange("\r\n\n\r\n" + request + "\r\n\r\n" + request + "Connection: close\r\n\r\n");
+    EXPECT_EQ(statusOf(answer), 200);
+    EXPECT_NE(answer.find("HTTP/1.1 200", 20), std::string::npos) << "the second, too";
+}
+
+TEST_F(HttpTest, HostIsMissing_Is400) {
+    EXPECT_EQ(statusOf(exchange("GET / HTTP/1.1\r\nConnection: close\r\n\r\n")), 400);
+    EXPECT_EQ(statusOf(exchange("GET / HTTP/1.0\r\n\r\n")), 200);
 }
 
 TEST_F(HttpTest, Target_InAbsoluteForm_IsServed) {

@@ -29,6 +29,7 @@ TestServer::TestServer(const TestServerOptions& options) : opened_(options.open_
     run.server.connections_max = options.connections_max;
     run.server.allowed_origins = options.allowed_origins;
     run.server.trusted_proxies = options.trusted_proxies;
+    run.server.host_names = options.host_names;
     run.server.lobby = options.rules;
     run.server.lobby.resume_grace = options.resume_grace;
     run.server.lobby.sessions_max = options.sessions_max;

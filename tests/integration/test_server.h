@@ -19,6 +19,7 @@ struct TestServerOptions {
     bool open_at_once = true; // false: the scene keeps loading until open()
     std::vector<std::string> allowed_origins{};
     std::vector<std::string> trusted_proxies{};
+    std::vector<std::string> host_names{};
     std::filesystem::path web_root{};
     std::optional<net::AgonesOptions> agones{};
     net::LobbyRules rules{}; // but for what is said above

@@ -66,10 +66,18 @@ TEST(RequestForm, OtherTargets_StayOrAreRefused) {
     }
 }
 
+TEST(RequestForm, WithoutHost_IsRefusedFromHttp11On) {
+    Request request = get("/");
+    request.erase("Host");
+    ASSERT_FALSE(settleForm(request));
+    EXPECT_EQ(settleForm(request).error().message, "the field Host is missing");
+    request.version(10);
+    EXPECT_TRUE(settleForm(request));
+}
+
 TEST(SettleForm, AnyTransferEncoding_IsRefused) {
     for (const char* coding : {"chunked", "gzip", "identity", "x, chunked"}) {
-        Request request;
-        request.target("/");
+        Request request = get("/");
         request.set(boost::beast::http::field::transfer_encoding, coding);
         const auto settled = settleForm(request);
         ASSERT_FALSE(settled) << coding;

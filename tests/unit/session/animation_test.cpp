@@ -100,10 +100,20 @@ TEST_F(Animation, Another_BeginsAndFades) {
     EXPECT_EQ(applied(state, chosenAs(2), kStart + 2s).version, state.version);
 }
 
+TEST_F(Animation, TimeBeyondTheEnd_GoesOnAsItRepeats) {
+    const SessionState paused = applied(initial, with({{"animation_playing", false}}));
+    const auto at = [&](settings::Repeat repeat) {
+        const SessionState state =
+            applied(paused, with({{"animation_repeat", chosen(repeat)}}), kStart);
+        return timeOf(applied(state, seek(2.5), kStart), kStart + 9s);
+    };
+    EXPECT_EQ(at(settings::Repeat::kLoop), 0.5);
+    EXPECT_EQ(at(settings::Repeat::kPingPong), 1.5);
+    EXPECT_EQ(at(settings::Repeat::kOnce), 2);
+}
+
 TEST_F(Animation, Unknown_IsRefusedWithThoseThatThereAre) {
     EXPECT_EQ(refusalOf(chosenAs(3)), "animation is 3; this scene has 1 walk, 2 (nameless)");
-    EXPECT_EQ(refusalOf(seek(2.5)),
-              "animation_time is 2.5; it must be from 0 to 2 for animation 1");
     initial = applied(initial, chosenAs(0));
     EXPECT_EQ(refusalOf(seek(0)), "animation_time is 0; no animation is chosen");
     context.scene.motion = nullptr;
