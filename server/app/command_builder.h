@@ -128,6 +128,15 @@ class CommandBuilder {
                         shown_default);
     }
 
+    // Of one that would leave a door open if it counted as not given: a variable that is set to
+    // nothing, as templates do.
+    static void neverEmpty(CLI::Option* option) {
+        option->check([](const std::string& text) {
+            return text.empty() ? std::string("is empty; right is a value, or none at all")
+                                : std::string();
+        });
+    }
+
     // Shows all options since the last group under this heading.
     void group(const std::string& heading) const {
         const CLI::Option* help = cli_.get_help_ptr();

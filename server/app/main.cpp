@@ -4,6 +4,7 @@
 #include "app/standard_streams.h"
 #include "core/error.h"
 #include "core/write_soon.h"
+#include "net/stop_signal.h"
 
 #include <spdlog/spdlog.h>
 
@@ -71,12 +72,17 @@ int fail(const std::string& message, int exit_code) {
 } // namespace
 
 int main(int argc, char** argv) {
+    // As the first process of a container it would lose a signal that came before its handler.
+    net::holdStopSignals();
     app::holdStandardStreams();
     try {
         const auto options = app::parseOptions(argc, argv, app::readEnvironment(environ));
         // Standard output is for results only: logs go to stderr.
         app::startLog(options.log_level, options.log_format);
         app::logConfiguration(options.configuration);
+        if (!std::holds_alternative<app::ServeOptions>(options.command)) {
+            net::letStopSignalsGo();
+        }
         const int exit_code = std::visit(Run{}, options.command);
         app::finishResults();
         return exit_code;

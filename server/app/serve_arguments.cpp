@@ -41,12 +41,13 @@ Result<std::string> parseAdvertise(const std::string& text) {
 } // namespace
 
 void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
-    command.text(
+    command.neverEmpty(command.text(
         "--config", "FILE", options.config, "",
         "TOML file of options by their long names, such as max-sessions = 8. Each is also a "
         "variable, FROXEL_MAX_SESSIONS. The command line wins over the environment, that "
-        "over the file");
-    command.text("--address", "IP", options.address, options.address, "IPv4 or IPv6 to listen on");
+        "over the file"));
+    command.neverEmpty(command.text("--address", "IP", options.address, options.address,
+                                    "IPv4 or IPv6 to listen on"));
     command.number("--port", options.port, kPortRange, "TCP port, 0 for any free one");
     command.value("--admin-bind", "IP:PORT|none", options.admin, parseBindAddress,
                   fmt::format("{}:{}", options.admin.address, options.admin.port),
@@ -83,16 +84,18 @@ void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
                        : fmt::format("'{}' is not a host's name alone, such as froxel.example.org",
                                      text);
         });
-    command.text(
+    command.neverEmpty(command.text(
         "--token-file", "FILE", options.token_file, "",
         "Lets in who sends one of its tokens, one a line; read again on SIGHUP, and who has "
-        "none of them any more is sent away");
-    command.text("--admin-token-file", "FILE", options.admin_token_file, "",
-                 "A POST at the admin address must show one of its tokens as a bearer; beyond "
-                 "loopback none is answered without. Read again on SIGHUP");
-    command.text("--tls-cert", "FILE", options.tls_certificate, "",
-                 "Certificate with its chain, PEM, for https and wss; read again on SIGHUP");
-    command.text("--tls-key", "FILE", options.tls_key, "", "Its key, PEM");
+        "none of them any more is sent away"));
+    command.neverEmpty(
+        command.text("--admin-token-file", "FILE", options.admin_token_file, "",
+                     "A POST at the admin address must show one of its tokens as a bearer; beyond "
+                     "loopback none is answered without. Read again on SIGHUP"));
+    command.neverEmpty(
+        command.text("--tls-cert", "FILE", options.tls_certificate, "",
+                     "Certificate with its chain, PEM, for https and wss; read again on SIGHUP"));
+    command.neverEmpty(command.text("--tls-key", "FILE", options.tls_key, "", "Its key, PEM"));
     command.cli().add_flag("--agones", options.agones,
                            "Tell Agones' SDK at $AGONES_SDK_HTTP_PORT of this host, 9358 by "
                            "default, of readiness, health, sessions and the end");

@@ -30,9 +30,28 @@ std::string_view trimmed(std::string_view text) {
                : text.substr(begin, text.find_last_not_of(kSpace) + 1 - begin);
 }
 
+// An address as some proxies write it (Azure's Application Gateway, IIS): IPv6 may be in brackets,
+// and a port behind. None: brackets have no end, or something else follows.
+std::optional<std::string_view> withoutPort(std::string_view text) {
+    const auto isPort = [](std::string_view end) {
+        return end.empty() || (end.size() > 1 && end.front() == ':' &&
+                               end.find_first_not_of("0123456789", 1) == std::string_view::npos);
+    };
+    const bool bracketed = text.starts_with('[');
+    const bool one_colon = text.find(':') == text.rfind(':');
+    const size_t end = bracketed ? text.find(']') : one_colon ? text.find(':') : text.size();
+    if (bracketed && end == std::string_view::npos) {
+        return {};
+    }
+    const std::string_view address = text.substr(bracketed ? 1 : 0, bracketed ? end - 1 : end);
+    const size_t rest = std::min(text.size(), bracketed ? end + 1 : end);
+    return isPort(text.substr(rest)) ? std::optional(address) : std::nullopt;
+}
+
 std::optional<ip::address> parsed(std::string_view text) {
+    const auto alone = withoutPort(text);
     boost::system::error_code failure;
-    const ip::address address = ip::make_address(std::string(text), failure);
+    const ip::address address = ip::make_address(std::string(alone.value_or("")), failure);
     return failure ? std::nullopt : std::optional(plain(address));
 }
 

@@ -83,6 +83,14 @@ Error ioError(const fs::path& path, const std::string& what) {
     return {ErrorCode::kIo, "web page " + path.string() + ": " + what};
 }
 
+// Links are followed to files that are in the root, too: a ConfigMap's are all links.
+bool isServed(const fs::directory_entry& entry, const fs::path& real_root) {
+    std::error_code failure;
+    const fs::path real = fs::canonical(entry.path(), failure);
+    return !failure && std::ranges::mismatch(real_root, real).in1 == real_root.end() &&
+           fs::is_regular_file(real, failure);
+}
+
 std::optional<std::string> readFile(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -97,10 +105,15 @@ Result<StaticFiles> StaticFiles::load(const fs::path& root) {
     if (failure) {
         return ioError(root, failure.message());
     }
+    const fs::path real_root = fs::canonical(root, failure);
     StaticFiles files;
     size_t total_bytes = 0;
     for (; entries != fs::recursive_directory_iterator(); entries.increment(failure)) {
-        if (!fs::is_regular_file(entries->symlink_status(failure))) {
+        if (entries->path().filename().string().starts_with(
+                "..")) { // where a ConfigMap's links lead
+            entries.disable_recursion_pending();
+        }
+        if (!isServed(*entries, real_root)) {
             continue;
         }
         auto body = readFile(entries->path());

@@ -8,6 +8,17 @@
 #include <utility>
 
 namespace froxel::net {
+namespace {
+
+void maskStopSignals(int how) {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGINT);
+    pthread_sigmask(how, &signals, nullptr);
+}
+
+} // namespace
 
 struct StopSignal::Impl {
     boost::asio::io_context io;
@@ -26,7 +37,16 @@ struct StopSignal::Impl {
     }
 };
 
+void holdStopSignals() {
+    maskStopSignals(SIG_BLOCK);
+}
+
+void letStopSignalsGo() {
+    maskStopSignals(SIG_UNBLOCK);
+}
+
 StopSignal::StopSignal() : impl_(std::make_unique<Impl>()) {
+    letStopSignalsGo(); // one that came before is caught now
     impl_->signals.async_wait([impl = impl_.get()](boost::system::error_code failure, int signal) {
         impl->caught = failure ? 0 : signal;
         impl->io.stop();

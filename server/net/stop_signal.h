@@ -7,9 +7,15 @@
 
 namespace froxel::net {
 
+// Of the calling thread, and of those that it begins: both wait until somebody catches them. Before
+// that, the first process of a container would lose them (pid_namespaces(7)).
+void holdStopSignals();
+// They end the process again, as by default.
+void letStopSignalsGo();
+
 class StopSignal {
   public:
-    // Catches both from now on.
+    // Catches both from now on, and one that was held. On the thread that held them.
     StopSignal();
     ~StopSignal();
     StopSignal(const StopSignal&) = delete;

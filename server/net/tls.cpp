@@ -29,7 +29,16 @@ Result<void> Tls::reload() {
     if (failure) {
         return refuse(certificate_, failure.message());
     }
+    bool encrypted = false; // OpenSSL would ask at the terminal
+    context->set_password_callback([&encrypted](size_t /*most*/, auto /*purpose*/) {
+        encrypted = true;
+        return std::string();
+    });
     context->use_private_key_file(key_.string(), ssl::context::pem, failure);
+    if (encrypted) {
+        return refuse(key_, "is encrypted; right is a key without a passphrase, which openssl pkey "
+                            "makes of it");
+    }
     if (failure) {
         return refuse(key_, failure.message());
     }

@@ -34,9 +34,23 @@ TEST(ClientAddress, BehindTrustedProxies_IsTheLastHopThatIsNoneOfThem) {
     EXPECT_EQ(clientOf("::ffff:10.1.2.3", "198.51.100.1", proxies), "198.51.100.1");
 }
 
+// Azure's Application Gateway and IIS write the viewer's port behind the address.
+TEST(ClientAddress, WithAPort_IsTheAddressAlone) {
+    for (const auto& [hop, address] :
+         {std::pair("203.0.113.9:1111", "203.0.113.9"), std::pair("[2001:db8::1]:1", "2001:db8::1"),
+          std::pair("[2001:db8::1]", "2001:db8::1"), std::pair("2001:db8::1", "2001:db8::1"),
+          std::pair("8.8.8.8, 203.0.113.9:65535", "203.0.113.9")}) {
+        EXPECT_EQ(clientOf("10.0.0.1", hop, {"10.0.0.0/8"}), address) << hop;
+    }
+    for (const char* hop : {"203.0.113.9:", "203.0.113.9:http", "[2001:db8::1", "[2001:db8::1]x",
+                            "[2001:db8::1]:", "[203.0.113.9]:1x", ":80", "[]:80"}) {
+        EXPECT_EQ(clientOf("10.0.0.1", hop, {"10.0.0.0/8"}), "10.0.0.1") << hop;
+    }
+}
+
 TEST(ClientAddress, TrustedProxySaysNoAddress_IsTheProxy) {
     const std::vector<std::string> proxies{"10.0.0.0/8"};
-    for (const char* said : {"", "unknown", ",", "198.51.100.1, who", "198.51.100.1:80"}) {
+    for (const char* said : {"", "unknown", ",", "198.51.100.1, who", "198.51.100.1:x"}) {
         EXPECT_EQ(clientOf("10.1.2.3", said, proxies), "10.1.2.3") << said;
     }
 }

@@ -41,6 +41,22 @@ TEST_F(StaticFilesTest, Load_Folder_HasEveryFileUnderItsPath) {
     EXPECT_EQ(files.find("/assets"), nullptr);
 }
 
+// As a ConfigMap is mounted.
+TEST_F(StaticFilesTest, Load_LinksToFilesInTheFolder_AreServed_AndThoseThatLeadOutAreNot) {
+    fs::create_directories(root_ / "..2026_11");
+    write("..2026_11/index.html", "page");
+    fs::create_directory_symlink("..2026_11", root_ / "..data");
+    fs::create_symlink("..data/index.html", root_ / "index.html");
+    const fs::path outside = root_.string() + "_outside.txt";
+    std::ofstream(outside) << "secret";
+    fs::create_symlink(outside, root_ / "outside.txt");
+    fs::create_symlink("nothing", root_ / "broken.txt");
+    const auto files = StaticFiles::load(root_).value();
+    fs::remove(outside);
+    EXPECT_EQ(files.count(), 1U);
+    EXPECT_EQ(files.find("/index.html")->plain.body, "page");
+}
+
 TEST_F(StaticFilesTest, Load_ChangedContent_ChangesTheETag) {
     write("index.html", "one");
     const std::string before = StaticFiles::load(root_).value().find("/")->plain.etag;
