@@ -346,6 +346,35 @@ it('PanelAndFigures_AreAsTheyWereLeft', async () => {
   expect(await page.locator('#panel').isVisible()).toBe(false);
 });
 
+it('Tab_IsDuplicated_BothHaveTheirOwnView', async () => {
+  const { page } = await open();
+  const banner = '#banner';
+  const [copy] = await Promise.all([
+    page.context().waitForEvent('page'),
+    page.evaluate(() => void window.open(location.href)), // with what the tab kept, as duplicates have it
+  ]);
+  const connected = (of: Page): Promise<unknown> =>
+    until('a picture', () => of.evaluate(() => document.getElementById('progress')?.hidden === true));
+  await connected(copy);
+  expect(await copy.evaluate(() => sessionStorage.getItem('froxel.resume.'))).not.toBe(
+    await page.evaluate(() => sessionStorage.getItem('froxel.resume.')),
+  );
+  expect(await page.locator(banner).isVisible()).toBe(false);
+  expect(await copy.locator(banner).isVisible()).toBe(false);
+});
+
+it('HighContrast_WhatIsPressedLooksPressed_AndSlidersHaveATrack', async () => {
+  const { page } = await open(kStill, { forcedColors: 'active' });
+  await page.locator('#tool-panel').click();
+  const groundOf = (id: string): Promise<string> =>
+    page.locator(id).evaluate((tool) => getComputedStyle(tool).backgroundColor);
+  expect(await groundOf('#tool-panel')).not.toBe(await groundOf('#tool-home'));
+  // The browser would paint the track's ground away, and it has nothing else.
+  const slider = page.locator('#panel input.slider').first();
+  expect(await slider.evaluate((one) => getComputedStyle(one).forcedColorAdjust)).toBe('none');
+  await page.screenshot({ path: 'test-results/high-contrast.png' });
+});
+
 it('Search_LeadsToASettingAndRunsAnAction', async () => {
   const viewer = await open();
   const { page } = viewer;

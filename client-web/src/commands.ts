@@ -275,6 +275,10 @@ export class Commands
     return { path: `render?${query}`, file: fileName('png') };
   }
 
+  isReadable(): boolean {
+    return this.picture.isReadable();
+  }
+
   async saveShown(): Promise<void> {
     const png = await this.picture.png();
     if (!png) {

@@ -27,7 +27,7 @@ import type { LostSync } from './picture/video_track';
 import { Connection, type Link } from './protocol/connection';
 import { Recorder } from './protocol/recorder';
 import { askRefusal } from './protocol/refusal';
-import { Resume, tabShelf } from './protocol/resume';
+import { Resume, tabsChannel, tabShelf } from './protocol/resume';
 import { ServerFiles } from './protocol/server_files';
 import { sameView } from './settings/setting_commands';
 import { toVec, type Settings } from './settings/settings';
@@ -46,6 +46,7 @@ import { CanvasInput } from './steering/input';
 import type { LightHandles } from './steering/light_handles';
 
 const kPrefetchMs = 1_000; // after the first picture
+const kClaimMs = 150; // until another tab has answered
 const kMinorOfPause = 2; // protocol_minor since which a server knows Pause
 
 const canvas = element('view', HTMLCanvasElement);
@@ -54,7 +55,7 @@ const nextFrame = (action: (nowMs: number) => void): void => void requestAnimati
 
 const wantedRoom = roomFromAddress(location.search);
 const roomName = 'name' in wantedRoom ? wantedRoom.name : '';
-const resume = new Resume(tabShelf(), roomName);
+const resume = new Resume(tabShelf(), roomName, tabsChannel());
 const token = new TokenPrompt(tabShelf(), () => connection.open());
 const store = new Store();
 const stats = new Stats();
@@ -347,7 +348,7 @@ const doings: Doings = {
   renderers: () => void renderersCard.want().then((card) => card?.toggle()),
   pictures: () => void pictureCard.want().then((card) => card?.toggle()),
   room: () => void roomCard.want().then((card) => card?.toggle()),
-  screenshot: () => void commands.saveShown(),
+  screenshot: () => (commands.isReadable() ? void commands.saveShown() : doings.pictures()),
   copyLink: () => void address.copy(),
   fullscreen: () => void toggleFullscreen(),
   help: () => (help.open ? help.close() : help.showModal()),
@@ -415,7 +416,8 @@ async function toggleFullscreen(): Promise<void> {
 const input = new CanvasInput(canvas, commands, nextFrame);
 // Captured, since the panel keeps the keys of its controls to itself, one that goes up there too.
 const captured = { capture: true };
-function keyDown(event: KeyboardEvent): void {
+function keyDown(event: Event): void {
+  if (!(event instanceof KeyboardEvent)) return; // a browser that fills in a form sends a plain one
   connection.wake();
   if (event.key.toLowerCase() === 'k' && (event.ctrlKey || event.metaKey)) {
     event.preventDefault();
@@ -436,7 +438,7 @@ function keyDown(event: KeyboardEvent): void {
   entry.run();
 }
 window.addEventListener('keydown', keyDown, captured);
-window.addEventListener('keyup', (event) => input.keyUp(event), captured);
+window.addEventListener('keyup', (event: Event) => event instanceof KeyboardEvent && input.keyUp(event), captured);
 window.addEventListener('blur', () => input.releaseAll());
 document.addEventListener('visibilitychange', () => tellVisibility(false));
 canvas.addEventListener('pointerdown', () => connection.wake());
@@ -470,6 +472,6 @@ function begin(): void {
     const link: Link = { phase: 'refused', reason: wantedRoom.problem, remedy: null };
     store.dispatch({ type: 'link', link });
   } else {
-    connection.open();
+    void resume.claim(kClaimMs).then(() => connection.open());
   }
 }

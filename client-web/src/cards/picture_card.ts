@@ -9,6 +9,8 @@ export interface PictureActions {
   /** Of the picture that is shown; null: there is none. */
   pictureSize(): Size | null;
   saveShown(): Promise<void>;
+  /** Whether the browser lets that be saved; else the server draws it again. */
+  isReadable(): boolean;
   /** Path of a still of this view in that size, and the name of its file. */
   still(size: Size): { readonly path: string; readonly file: string };
 }
@@ -38,13 +40,18 @@ export class PictureCard {
       return;
     }
     const shown = this.actions.pictureSize();
-    this.said.textContent = shown ? '' : 'There is no picture to save yet.';
+    const readable = 'This browser lets no page save what it shows; the server draws the picture again.';
+    this.said.textContent = !shown ? 'There is no picture to save yet.' : this.actions.isReadable() ? '' : readable;
     this.list.replaceChildren(...(shown ? this.items(shown) : []));
     this.dialog.showModal();
   }
 
   private items(shown: Size): HTMLElement[] {
     const asShown = this.item(`As shown, ${sizeText(shown)}`, async () => {
+      if (!this.actions.isReadable()) {
+        await this.draw(shown);
+        return;
+      }
       await this.actions.saveShown();
       this.dialog.close();
     });

@@ -1,5 +1,6 @@
 // The server's scenes to choose from. What it says of them is set as text, never as HTML.
 
+import { folded } from '../core/entries';
 import { closeBeside, element, make } from '../core/dom';
 import { bytes } from '../core/format';
 import type { ServerFiles } from '../protocol/server_files';
@@ -98,9 +99,9 @@ export class ScenesCard {
 
   private show(): void {
     this.search.hidden = this.order.hidden = this.rows.length < kSearchFrom;
-    const words = this.search.value.toLowerCase().split(/\s+/);
+    const words = folded(this.search.value).split(/\s+/);
     const found = this.rows.filter(({ name, path }) => {
-      const text = `${name} ${path}`.toLowerCase();
+      const text = folded(`${name} ${path}`);
       return words.every((word) => text.includes(word));
     });
     this.said.textContent = this.rows.length > 0 && found.length === 0 ? 'No scene has that in its name.' : '';

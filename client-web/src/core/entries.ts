@@ -18,9 +18,12 @@ export const keyText = ({ key }: Entry): string => (key === ' ' ? 'Space' : key.
 export const entryOf = (key: string, entries: readonly Entry[]): Entry | undefined =>
   entries.find((entry) => entry.key !== '' && entry.key === key.toLowerCase());
 
+/** For a search: in small letters, and one text for each way to write an accent. */
+export const folded = (text: string): string => text.normalize('NFC').toLowerCase();
+
 /** How well an entry answers, best first: by its title's beginning, its title, a word, its help. */
 function rank({ title, help, words }: Entry, text: string): number {
-  const [name, more, rest] = [title.toLowerCase(), words.toLowerCase(), help.toLowerCase()];
+  const [name, more, rest] = [folded(title), folded(words), folded(help)];
   if (name.startsWith(text)) return 0;
   if (` ${name}`.includes(` ${text}`)) return 1;
   if (name.includes(text)) return 2;
@@ -32,7 +35,7 @@ function rank({ title, help, words }: Entry, text: string): number {
 
 /** Those that have what was typed in them, best first; all of them for nothing. */
 export function searched(entries: readonly Entry[], typed: string): Entry[] {
-  const text = typed.trim().toLowerCase();
+  const text = folded(typed.trim());
   return entries
     .map((entry) => ({ entry, rank: rank(entry, text) }))
     .filter((found) => found.rank < Infinity)

@@ -33,6 +33,16 @@ export class Picture {
     this.painted = true;
   }
 
+  /** Whether a page may read back what it painted: some browsers give noise (resistFingerprinting). */
+  isReadable(): boolean {
+    const probe = document.createElement('canvas').getContext('2d');
+    if (!probe) return false;
+    probe.fillStyle = '#123456';
+    probe.fillRect(0, 0, 8, 8);
+    const { data } = probe.getImageData(0, 0, 8, 8);
+    return data.every((value, i) => value === [0x12, 0x34, 0x56, 0xff][i % 4]);
+  }
+
   /** Of the picture that is shown; null before the first. */
   size(): Size | null {
     return this.painted ? { width: this.canvas.width, height: this.canvas.height } : null;

@@ -32,7 +32,8 @@ export interface InputTarget {
 
 const kRadPerHeight = Math.PI; // a drag over the whole canvas turns half around
 const kZoomPerPixel = 0.0015;
-const kPixelsPerLine = 16;
+const kPixelsPerUnit: readonly number[] = [1, 16]; // of WheelEvent.deltaMode: pixels, lines; else pages
+const kLongestPinch = 0.15; // of one event, as a notch of a wheel
 const kFastFactor = 4;
 const kLongestStepS = 0.1; // after a stall the camera does not leap
 
@@ -63,6 +64,21 @@ const kZoomKeys: ReadonlyMap<string, number> = new Map([
 interface Pointer {
   readonly x: number;
   readonly y: number;
+}
+
+/** What a turn of the wheel multiplies distances by; `pageHeight` is the canvas's, in pixels. */
+export function wheelFactor(
+  { deltaX, deltaY, deltaMode, ctrlKey, shiftKey }: Pick<WheelEvent, 'deltaX' | 'deltaY' | 'deltaMode' | 'ctrlKey' | 'shiftKey'>,
+  pageHeight: number,
+): number {
+  // Browsers turn a wheel that is turned with shift sideways.
+  const delta = deltaY === 0 && shiftKey ? deltaX : deltaY;
+  const pixels = delta * (kPixelsPerUnit[deltaMode] ?? pageHeight);
+  const zoom = pixels * kZoomPerPixel;
+  if (!ctrlKey) return Math.exp(zoom);
+  // A pinch on a trackpad, by as much as browsers zoom pages. Control and a wheel look the same,
+  // but for their long steps.
+  return Math.exp(Math.sign(zoom) * Math.max(Math.min(Math.abs(pixels) / 100, kLongestPinch), Math.abs(zoom)));
 }
 
 export class CanvasInput {
@@ -185,8 +201,7 @@ export class CanvasInput {
       this.target.refused();
       return;
     }
-    const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? kPixelsPerLine : 1;
-    this.zoomBy(view, Math.exp(event.deltaY * unit * kZoomPerPixel));
+    this.zoomBy(view, wheelFactor(event, this.canvas.clientHeight));
   }
 
   private zoomBy(view: View, factor: number): void {

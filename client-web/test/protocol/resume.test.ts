@@ -1,6 +1,29 @@
 import { describe, expect, it } from 'vitest';
 
-import { Resume, type Shelf } from '../../src/protocol/resume';
+import { Resume, type Shelf, type Tabs } from '../../src/protocol/resume';
+
+function fakeShelf(kept: [string, string][] = []): Shelf {
+  const items = new Map(kept);
+  return {
+    getItem: (key) => items.get(key) ?? null,
+    removeItem: (key) => void items.delete(key),
+    setItem: (key, value) => void items.set(key, value),
+  };
+}
+
+function fakeTabs(): { tabs: () => Tabs } {
+  const all: ((message: unknown) => void)[][] = [];
+  return {
+    tabs: () => {
+      const mine: ((message: unknown) => void)[] = [];
+      all.push(mine);
+      return {
+        post: (message) => all.filter((one) => one !== mine).forEach((one) => one.forEach((heard) => heard(message))),
+        listen: (heard) => mine.push(heard),
+      };
+    },
+  };
+}
 
 describe('Resume', () => {
   it('Token_IsKeptPerRoom_OutlivesAReload_AndGoesWhereTheServerKeepsNone', () => {
@@ -16,6 +39,29 @@ describe('Resume', () => {
     new Resume(shelf, 'hall').keep('');
     expect(new Resume(shelf, 'hall').token).toBe('');
     expect(items.size).toBe(0);
+  });
+
+  it('Tab_IsDuplicated_BeginsAnew_AndTheFirstKeepsItsSession', async () => {
+    const { tabs } = fakeTabs();
+    const first = new Resume(fakeShelf(), '', tabs());
+    first.keep('secret');
+    const copy = fakeShelf([['froxel.resume.', 'secret']]);
+    const second = new Resume(copy, '', tabs());
+    await second.claim(10_000); // the answer ends it
+    expect(second.token).toBe('');
+    expect(first.token).toBe('secret');
+    second.keep('another');
+    expect(copy.getItem('froxel.resume.')).toBe('another');
+  });
+
+  it('Tab_IsReloaded_NobodyAnswers_SoItTakesItsSessionUp', async () => {
+    const { tabs } = fakeTabs();
+    const other = new Resume(fakeShelf(), '', tabs());
+    other.keep('of another tab');
+    const reloaded = new Resume(fakeShelf([['froxel.resume.', 'secret']]), '', tabs());
+    await reloaded.claim(1);
+    expect(reloaded.token).toBe('secret');
+    await new Resume(null, '', null).claim(10_000); // nothing to wait for
   });
 
   it('Token_WithoutStorage_IsKeptInThePage', () => {

@@ -134,6 +134,13 @@ describe('addresses', () => {
     expect(parseAddress('scene=&lights=5').scene).toBeNull();
   });
 
+  it('WhatOthersAddToLinks_IsPassedOver_AndATypoIsNot', () => {
+    const { settings, problems } = parseAddress('#lights=7&fbclid=IwAR0&utm_source=mail&&gclid=1');
+    expect(settings).toEqual({ lights: 7 });
+    expect(problems).toEqual([]);
+    expect(parseAddress('#ligths=7').problems).toHaveLength(1);
+  });
+
   it('RampsAsTheyWere_AreNotInTheAddress', () => {
     expect(formatAddress(initial, kAuto, initial)).not.toMatch(/toon_(fragment|compute)=/);
   });

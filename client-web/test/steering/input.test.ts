@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
 import type { Pose } from '../../src/steering/camera_controller';
-import { CanvasInput, type View } from '../../src/steering/input';
+import { CanvasInput, type View, wheelFactor } from '../../src/steering/input';
 
 class FakeCanvas extends EventTarget {
   clientHeight = 100;
@@ -171,6 +171,25 @@ describe('wheel', () => {
     const event = send('wheel', { deltaY: -100, deltaMode: 0 });
     expect(event.defaultPrevented).toBe(true);
     expect(current().eye.z).toBeLessThan(10);
+  });
+
+  const turn = { deltaX: 0, deltaY: 0, deltaMode: 0, ctrlKey: false, shiftKey: false };
+
+  it('Pinch_ZoomsAsMuchAsTheFingers_AndAWheelWithControlAsWithout', () => {
+    expect(wheelFactor({ ...turn, deltaY: -2, ctrlKey: true }, 500)).toBeCloseTo(Math.exp(-0.02), 12);
+    expect(wheelFactor({ ...turn, deltaY: 7, ctrlKey: true }, 500)).toBeCloseTo(Math.exp(0.07), 12);
+    const notch = { ...turn, deltaY: 120 };
+    expect(wheelFactor({ ...notch, ctrlKey: true }, 500)).toBe(wheelFactor(notch, 500));
+  });
+
+  it('LinesAndPages_AreAsManyPixels', () => {
+    expect(wheelFactor({ ...turn, deltaY: 3, deltaMode: 1 }, 500)).toBe(wheelFactor({ ...turn, deltaY: 48 }, 500));
+    expect(wheelFactor({ ...turn, deltaY: 1, deltaMode: 2 }, 500)).toBe(wheelFactor({ ...turn, deltaY: 500 }, 500));
+  });
+
+  it('WithShift_BrowsersTurnItSideways_AndItZoomsAllTheSame', () => {
+    expect(wheelFactor({ ...turn, deltaX: 100, shiftKey: true }, 500)).toBe(wheelFactor({ ...turn, deltaY: 100 }, 500));
+    expect(wheelFactor({ ...turn, deltaX: 100 }, 500)).toBe(1);
   });
 
   it('Orthographic_ChangesItsHeight', () => {
