@@ -1,14 +1,33 @@
 #include "environment/surroundings.h"
 
-#include "environment/studio.h"
+#include "environment/studio_table.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 namespace froxel::environment {
 namespace {
 
-// As fine as the finest level of the map.
-constexpr uint32_t kStudioWidth_px = 4 * PrefilterSize{}.finest_px;
+Surroundings studioFromTable() {
+    const StudioTable table = studioTable();
+    Surroundings studio;
+    std::ranges::transform(table.matt, studio.matt.terms.begin(),
+                           [](double term) { return glm::dvec3(term); });
+    uint32_t size_px = PrefilterSize{}.finest_px;
+    std::span<const float> left = table.texels;
+    for (const double roughness : table.roughness) {
+        CubeLevel level{size_px, roughness, {}};
+        const size_t count = size_t{6} * size_px * size_px;
+        for (const float texel : left.first(count)) {
+            level.rgb.insert(level.rgb.end(), 3, texel);
+        }
+        left = left.subspan(count);
+        studio.glossy.levels.push_back(std::move(level));
+        size_px /= 2;
+    }
+    return studio;
+}
 
 } // namespace
 
@@ -18,7 +37,7 @@ Surroundings surroundingsOf(LinearImage panorama) {
 }
 
 const Surroundings& studioSurroundings() {
-    static const Surroundings studio = surroundingsOf(studioPanorama(kStudioWidth_px));
+    static const Surroundings studio = studioFromTable();
     return studio;
 }
 

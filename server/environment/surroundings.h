@@ -17,7 +17,7 @@ struct Surroundings {
 // Takes some seconds, on several threads. Any thread.
 [[nodiscard]] Surroundings surroundingsOf(LinearImage panorama);
 
-// Of the studio. Made at the first call, which others wait for meanwhile, and kept. Any thread.
+// Of the studio: as surroundingsOf() makes them of its panorama, to the bit. Any thread.
 [[nodiscard]] const Surroundings& studioSurroundings();
 
 } // namespace froxel::environment

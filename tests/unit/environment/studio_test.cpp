@@ -1,4 +1,6 @@
 #include "environment/studio.h"
+#include "environment/studio_table.h"
+#include "environment/surroundings.h"
 #include "unit/environment/axes.h"
 
 #include <glm/geometric.hpp>
@@ -43,6 +45,18 @@ TEST(Studio, Key_IsFrontLeft) {
     EXPECT_GT(key, 2 * studioRadiance({0, -1, 0}));
     EXPECT_GT(studioRadiance({0, 1, 0}), studioRadiance({0, -1, 0}));
     EXPECT_GT(studioRadiance({0, -1, 0}), 0);
+}
+
+TEST(Studio, Table_IsWhatFilteringItGives) {
+    const Surroundings made = surroundingsOf(studioPanorama(kStudioWidth_px));
+    const Surroundings& kept = studioSurroundings();
+    EXPECT_EQ(kept.matt.terms, made.matt.terms);
+    ASSERT_EQ(kept.glossy.levels.size(), made.glossy.levels.size());
+    for (size_t i = 0; i < made.glossy.levels.size(); ++i) {
+        EXPECT_EQ(kept.glossy.levels[i].size_px, made.glossy.levels[i].size_px);
+        EXPECT_EQ(kept.glossy.levels[i].roughness, made.glossy.levels[i].roughness);
+        EXPECT_EQ(kept.glossy.levels[i].rgb, made.glossy.levels[i].rgb) << i;
+    }
 }
 
 } // namespace froxel::environment
