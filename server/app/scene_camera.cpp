@@ -48,6 +48,50 @@ scene::Scene withoutImages(const scene::Scene& scene) {
     return bare;
 }
 
+// Of a clip, after its first: what it shows over its length is to be in the picture.
+constexpr uint32_t kMoments = 7;
+// Of all moments together, that are posed: a second or two.
+constexpr uint64_t kMostVertices = uint64_t{1} << 24U;
+
+uint64_t vertexCount(const scene::Scene& scene) {
+    uint64_t count = 0;
+    for (const scene::Instance& instance : scene.instances) {
+        for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
+            count += primitive.positions.size();
+        }
+    }
+    return count;
+}
+
+// As the clips have it at that time; its bounds are of that alone.
+scene::Scene
+momentOf(const scene::Scene& scene, std::span<const motion::PlayedClip> clips, double time_s) {
+    scene::Scene posed = motion::posedScene(scene, clips, time_s);
+    posed.bounds_world = {};
+    for (const scene::Instance& instance : posed.instances) {
+        for (const scene::Primitive& primitive : posed.meshes[instance.mesh].primitives) {
+            for (const glm::vec3& position : primitive.positions) {
+                posed.bounds_world.add(
+                    glm::dvec3(instance.world_from_object * glm::dvec4(position, 1)));
+            }
+        }
+    }
+    return posed;
+}
+
+// About both; `a` where that holds the other.
+settings::Sphere together(const settings::Sphere& a, const settings::Sphere& b) {
+    const double apart_m = glm::distance(a.center, b.center);
+    if (apart_m + b.radius_m <= a.radius_m) {
+        return a;
+    }
+    if (apart_m + a.radius_m <= b.radius_m) {
+        return b;
+    }
+    const double radius_m = 0.5 * (apart_m + a.radius_m + b.radius_m);
+    return {glm::mix(a.center, b.center, (radius_m - a.radius_m) / apart_m), radius_m};
+}
+
 } // namespace
 
 scene::FirstView firstViewOf(const scene::Scene& scene) {
@@ -55,15 +99,21 @@ scene::FirstView firstViewOf(const scene::Scene& scene) {
         return scene::firstViewOf(scene, scene::enclosingSphere(scene));
     }
     const auto clips = motion::usualClips(*scene.motion);
-    scene::Scene posed = motion::posedScene(withoutImages(scene), clips, 0);
-    posed.bounds_world = motion::sampledBounds(scene, clips, 1);
-    const settings::Sphere pose = scene::enclosingSphere(posed);
-    // What unfolds later begins as a point.
-    constexpr uint32_t kSamples = 8;
-    constexpr double kLeast = 0.25;
-    const BoundsD3 later = motion::sampledBounds(scene, clips, kSamples);
-    const settings::Sphere whole{later.center(), 0.5 * glm::length(later.size())};
-    return scene::firstViewOf(posed, pose.radius_m < kLeast * whole.radius_m ? whole : pose);
+    double duration_s = 0;
+    for (const auto& played : clips) {
+        duration_s = std::max(duration_s, scene.motion->clips[played.clip].duration_s);
+    }
+    const scene::Scene bare = withoutImages(scene);
+    const scene::Scene first = momentOf(bare, clips, 0);
+    settings::Sphere sphere = scene::enclosingSphere(first);
+    const auto moments =
+        static_cast<uint32_t>(std::clamp(kMostVertices / std::max(vertexCount(scene), uint64_t{1}),
+                                         uint64_t{1}, uint64_t{kMoments}));
+    for (uint32_t i = 1; i <= moments; ++i) {
+        sphere = together(sphere,
+                          scene::enclosingSphere(momentOf(bare, clips, duration_s * i / moments)));
+    }
+    return scene::firstViewOf(first, sphere);
 }
 
 Result<settings::Camera>

@@ -95,37 +95,4 @@ scene::Scene posedScene(scene::Scene scene, std::span<const PlayedClip> clips, d
     return scene;
 }
 
-BoundsD3
-sampledBounds(const scene::Scene& scene, std::span<const PlayedClip> clips, uint32_t sample_count) {
-    const Player player(scene);
-    double duration_s = 0;
-    for (const PlayedClip& played : clips) {
-        duration_s = std::max(duration_s, player.motion().clips[played.clip].duration_s);
-    }
-    std::vector<uint32_t> deformed_of(scene.meshes.size(), scene::kNone);
-    for (uint32_t d = 0; d < player.motion().deformed.size(); ++d) {
-        deformed_of[player.motion().deformed[d].mesh] = d;
-    }
-    BoundsD3 bounds;
-    Moment moment;
-    PosedVertices posed;
-    for (uint32_t sample = 0; sample < sample_count; ++sample) {
-        player.at(clips, duration_s * sample / sample_count, moment);
-        for (size_t i = 0; i < scene.instances.size(); ++i) {
-            const uint32_t mesh = scene.instances[i].mesh;
-            for (size_t p = 0; p < scene.meshes[mesh].primitives.size(); ++p) {
-                const auto* positions = &scene.meshes[mesh].primitives[p].positions;
-                if (deformed_of[mesh] != scene::kNone) {
-                    player.deformAt(moment, deformed_of[mesh], p, posed);
-                    positions = &posed.positions;
-                }
-                for (const glm::vec3& position : *positions) {
-                    bounds.add(glm::dvec3(moment.instances[i] * glm::dvec4(position, 1)));
-                }
-            }
-        }
-    }
-    return bounds;
-}
-
 } // namespace froxel::motion

@@ -27,9 +27,4 @@ void placeCameras(scene::Scene& scene, std::span<const PlayedClip> clips, double
                                         const Playing& playing,
                                         settings::Camera camera);
 
-// Of all vertices at so many times, evenly spread over the longest of the clips: for framing, much
-// tighter than what holds any pose. The scene has motion.
-[[nodiscard]] BoundsD3
-sampledBounds(const scene::Scene& scene, std::span<const PlayedClip> clips, uint32_t sample_count);
-
 } // namespace froxel::motion

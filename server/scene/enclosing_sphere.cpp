@@ -1,5 +1,7 @@
 #include "scene/enclosing_sphere.h"
 
+#include "scene/enclosure.h"
+
 #include <algorithm>
 
 namespace froxel::scene {
@@ -35,9 +37,13 @@ double farthestCorner(const Placed& placed, const glm::dvec3& middle) {
 } // namespace
 
 settings::Sphere enclosingSphere(const Scene& scene) {
-    const glm::dvec3 middle = scene.bounds_world.center();
+    const auto surround = surroundOf(scene);
+    const glm::dvec3 middle = (surround ? surround->rest_world : scene.bounds_world).center();
     std::vector<Placed> all;
     for (const Instance& instance : scene.instances) {
+        if (surround && &instance == &scene.instances[surround->instance]) {
+            continue;
+        }
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             if (!primitive.bounds.empty()) {
                 all.push_back({&primitive, &instance});

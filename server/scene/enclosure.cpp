@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace froxel::scene {
 
@@ -15,6 +16,10 @@ constexpr size_t kRoomHits = kRayCount * 2 / 3;
 constexpr double kLeastMedian = 0.2;
 // A stool and a chest are hollow, too.
 constexpr double kLeastDiagonal_m = 6;
+// Of a sky's diagonal, that of all below it: the things in a room are more of the room.
+constexpr double kMostOfSky = 0.15;
+// A sky is half a sphere, or a bit less.
+constexpr size_t kSkyHits = kRayCount / 3;
 // Triangles that rays are held against, of all together: a second or two. Things whose boxes all
 // lie over each other take more; what was met until then counts.
 constexpr uint64_t kMostTests = uint64_t{1} << 27U;
@@ -64,14 +69,48 @@ void meetTriangle(const Ray& ray,
     }
 }
 
+// Points of a spiral with the golden angle from row to row.
+std::vector<glm::dvec3> allAround() {
+    const double golden_rad = glm::pi<double>() * (3 - std::sqrt(5.0));
+    std::vector<glm::dvec3> directions;
+    for (size_t i = 0; i < kRayCount; ++i) {
+        const double y = 1 - (2 * static_cast<double>(i) + 1) / kRayCount;
+        const double ring = std::sqrt(1 - y * y);
+        const double angle_rad = golden_rad * static_cast<double>(i);
+        directions.emplace_back(ring * std::cos(angle_rad), y, ring * std::sin(angle_rad));
+    }
+    return directions;
+}
+
+// About the boxes of its primitives.
+BoundsD3 boundsOf(const Scene& scene, const Instance& instance) {
+    BoundsD3 bounds;
+    for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
+        const Bounds3& box = primitive.bounds;
+        for (unsigned corner = 0; !box.empty() && corner < 8; ++corner) {
+            const glm::dvec3 object((corner & 1U) != 0 ? box.max.x : box.min.x,
+                                    (corner & 2U) != 0 ? box.max.y : box.min.y,
+                                    (corner & 4U) != 0 ? box.max.z : box.min.z);
+            bounds.add(glm::dvec3(instance.world_from_object * glm::dvec4(object, 1)));
+        }
+    }
+    return bounds;
+}
+
+double diagonalOf(const BoundsD3& bounds) {
+    return bounds.empty() ? 0 : glm::length(bounds.size());
+}
+
 } // namespace
 
 std::vector<std::optional<RayHit>> castRays(const Scene& scene,
                                             const glm::dvec3& from_world,
-                                            const std::vector<glm::dvec3>& directions_world) {
+                                            const std::vector<glm::dvec3>& directions_world,
+                                            std::optional<size_t> only) {
     std::vector<std::optional<RayHit>> hits(directions_world.size());
     uint64_t tests = 0;
-    for (const Instance& instance : scene.instances) {
+    const auto all = std::span(scene.instances);
+    for (const Instance& instance : only ? all.subspan(*only, 1) : all) {
         const glm::dmat4& world_from_object = instance.world_from_object;
         const double det = glm::determinant(glm::dmat3(world_from_object));
         if (det == 0 || !std::isfinite(det)) {
@@ -105,21 +144,40 @@ std::vector<std::optional<RayHit>> castRays(const Scene& scene,
     return hits;
 }
 
+std::optional<Surround> surroundOf(const Scene& scene) {
+    std::vector<BoundsD3> boxes;
+    for (const Instance& instance : scene.instances) {
+        boxes.push_back(boundsOf(scene, instance));
+    }
+    const auto largest = std::ranges::max_element(boxes, {}, diagonalOf);
+    if (boxes.size() < 2 || largest->empty()) {
+        return {};
+    }
+    Surround surround{static_cast<size_t>(largest - boxes.begin()), {}};
+    for (const BoundsD3& box : boxes) {
+        if (&box != &*largest && !box.empty()) {
+            surround.rest_world.add(box.min);
+            surround.rest_world.add(box.max);
+        }
+    }
+    const double rest_m = diagonalOf(surround.rest_world);
+    if (rest_m == 0 || rest_m > kMostOfSky * diagonalOf(*largest)) {
+        return {};
+    }
+    const auto hits = castRays(scene, surround.rest_world.center(), allAround(), surround.instance);
+    const auto met = std::ranges::count_if(hits, [](const auto& hit) { return hit.has_value(); });
+    return static_cast<size_t>(met) >= kSkyHits ? std::optional(surround) : std::nullopt;
+}
+
 bool isRoom(const Scene& scene) {
     const double diagonal_m = glm::length(scene.bounds_world.size());
     if (scene.bounds_world.empty() || !(diagonal_m >= kLeastDiagonal_m)) {
         return false;
     }
-    // Points of a spiral with the golden angle from row to row.
-    const double golden_rad = glm::pi<double>() * (3 - std::sqrt(5.0));
-    std::vector<glm::dvec3> directions;
-    for (size_t i = 0; i < kRayCount; ++i) {
-        const double y = 1 - (2 * static_cast<double>(i) + 1) / kRayCount;
-        const double ring = std::sqrt(1 - y * y);
-        const double angle_rad = golden_rad * static_cast<double>(i);
-        directions.emplace_back(ring * std::cos(angle_rad), y, ring * std::sin(angle_rad));
+    if (surroundOf(scene)) {
+        return false;
     }
-    const auto hits = castRays(scene, scene.bounds_world.center(), directions);
+    const auto hits = castRays(scene, scene.bounds_world.center(), allAround());
     std::vector<double> fronts_m;
     for (const auto& hit : hits) {
         if (hit && hit->front) {

@@ -21,7 +21,8 @@ double roundNumber(double value) {
 }
 
 bool allUnlit(const Scene& scene) {
-    return std::all_of(scene.materials.begin(), scene.materials.end(),
+    return !scene.materials.empty() &&
+           std::all_of(scene.materials.begin(), scene.materials.end(),
                        [](const Material& material) { return material.unlit; });
 }
 
@@ -82,7 +83,9 @@ settings::PlacedLights lampsOf(const BoundsD3& room) {
 } // namespace
 
 void lookFor(const Scene& scene, settings::ViewSettings& settings) {
-    const double half_m = 0.5 * glm::length(scene.bounds_world.size());
+    const auto surround = surroundOf(scene);
+    const BoundsD3& bounds = surround ? surround->rest_world : scene.bounds_world;
+    const double half_m = 0.5 * glm::length(bounds.size());
     settings::Lights& lights = settings.lights;
     if (half_m > 0 && std::isfinite(half_m)) {
         const double usual_m = settings::Lights().radius_m;
@@ -97,10 +100,10 @@ void lookFor(const Scene& scene, settings::ViewSettings& settings) {
     lights.count = 0;
     settings.environment.light =
         allUnlit(scene) ? settings::EnvironmentLight::kOff : settings::EnvironmentLight::kStudio;
+    settings.background = kStudioBackground;
     if (!settings.environment.present()) {
         return;
     }
-    settings.background = kStudioBackground;
     if (!scene.lights.empty()) {
         settings.exposure_mode = settings::ExposureMode::kFrame;
         settings.environment.strength = kFill;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -14,8 +16,13 @@ namespace froxel::scene {
 namespace {
 
 constexpr double kEyeHeight_m = 1.6;
-// Below this a room is a model of one, and the eye is halfway up.
+// Of a room's height, the eye at most.
+constexpr double kEyeOfHeight = 0.6;
 constexpr double kLowestRoom_m = 2.2;
+constexpr double kUsualRoom_m = 2.7;
+constexpr double kHighestRoom_m = 25;
+// glTF's is the metre. Exporters of SketchUp and CAD keep what the drawing has.
+constexpr std::array kUnits_m = {1.0, 0.01, 0.0254, 0.001};
 // Of the way behind the eye, which keeps off the wall.
 constexpr double kStepBack = 0.8;
 // Of the surfaces that the best corner shows; where the usual one shows less, it is not taken.
@@ -95,13 +102,66 @@ double freeWay(const std::optional<RayHit>& hit, double otherwise) {
     return hit ? hit->distance_m : otherwise;
 }
 
+// In the scene's units. A room of another height than rooms have in any unit is a model of one.
+double eyeHeight(double height) {
+    double eye = kEyeOfHeight * height;
+    double best = std::numeric_limits<double>::infinity();
+    for (const double unit_m : kUnits_m) {
+        const double height_m = height * unit_m;
+        const double unlikely = std::abs(std::log(height_m / kUsualRoom_m));
+        if (height_m >= kLowestRoom_m && height_m <= kHighestRoom_m && unlikely < best) {
+            best = unit_m == 1 ? 0 : unlikely; // as the format has it
+            eye = std::min(kEyeOfHeight * height, kEyeHeight_m / unit_m);
+        }
+    }
+    return eye;
+}
+
+// The one that most of the others are near to, the first of those that are as many.
+double commonest(const std::vector<double>& values, double near) {
+    double common = 0;
+    ptrdiff_t most = 0;
+    for (const double value : values) {
+        const auto count = std::ranges::count_if(
+            values, [&](double other) { return std::abs(other - value) <= near; });
+        if (count > most) {
+            most = count;
+            common = value;
+        }
+    }
+    return common;
+}
+
+struct Storey {
+    double floor = 0;
+    double ceiling = 0;
+};
+
+// The widest around the middle: straight below it a table may stand.
+Storey storeyAround(const Scene& scene, const glm::dvec3& middle) {
+    const BoundsD3& bounds = scene.bounds_world;
+    std::vector<double> floors;
+    std::vector<double> ceilings;
+    constexpr double kAside = 0.25; // of the scene's sides
+    for (const double x : {-kAside, 0.0, kAside}) {
+        for (const double z : {-kAside, 0.0, kAside}) {
+            const glm::dvec3 from = middle + bounds.size() * glm::dvec3(x, 0, z);
+            const auto hits = castRays(scene, from, {{0, -1, 0}, {0, 1, 0}});
+            floors.push_back(from.y - freeWay(hits[0], from.y - bounds.min.y));
+            ceilings.push_back(from.y + freeWay(hits[1], bounds.max.y - from.y));
+        }
+    }
+    std::ranges::sort(floors);
+    std::ranges::sort(ceilings, std::greater());
+    const double near = 0.02 * bounds.size().y;
+    return {commonest(floors, near), commonest(ceilings, near)};
+}
+
 settings::Camera viewFromWithin(const Scene& scene) {
     const BoundsD3& bounds = scene.bounds_world;
     glm::dvec3 at = bounds.center();
-    const auto down_and_up = castRays(scene, at, {{0, -1, 0}, {0, 1, 0}});
-    const double floor = at.y - freeWay(down_and_up[0], at.y - bounds.min.y);
-    const double height = at.y + freeWay(down_and_up[1], bounds.max.y - at.y) - floor;
-    at.y = floor + (height < kLowestRoom_m ? 0.5 * height : kEyeHeight_m);
+    const Storey storey = storeyAround(scene, at);
+    at.y = storey.floor + eyeHeight(storey.ceiling - storey.floor);
 
     constexpr size_t kWays = 16; // and as many back
     std::vector<glm::dvec3> ways;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <gmock/gmock.h>
+#include <memory>
+#include <utility>
 
 namespace froxel::app {
 namespace {
@@ -41,6 +43,27 @@ TEST(FindCamera, DefaultWithoutCameras_IsTheOverview) {
     scene.cameras.clear();
     EXPECT_EQ(findCamera(DefaultCamera{}, scene, kSize).value(),
               settings::overview(scene::enclosingSphere(scene), 0.5));
+}
+
+// The triangle, at x = 0, goes to x = 10 and back in the clip's 2 s.
+TEST(FindCamera, DefaultOfAnAnimation_ShowsItOverItsLength) {
+    auto scene = twoCameras();
+    scene.cameras.clear();
+    scene::Motion motion;
+    motion.nodes.resize(1);
+    motion.instances = {{0, 0, glm::dmat4(1), scene::kNone}};
+    motion.clips = {{"go",
+                     2,
+                     {{scene::Interpolation::kLinear, 3, {0, 1, 2}, {0, 0, 0, 10, 0, 0, 0, 0, 0}}},
+                     {{0, 0, scene::ChannelPath::kTranslation}}}};
+    scene.motion = std::make_shared<const scene::Motion>(std::move(motion));
+    const settings::Sphere sphere = firstViewOf(scene).sphere_world;
+    for (const double x : {0.0, 10 * 6.0 / 7, 5.0}) {
+        EXPECT_LE(glm::distance(sphere.center, glm::dvec3(x, 0, 0)), sphere.radius_m) << x;
+    }
+    EXPECT_LT(sphere.radius_m, 7);
+    scene.motion = nullptr;
+    EXPECT_LT(firstViewOf(scene).sphere_world.radius_m, 2) << "where it rests";
 }
 
 TEST(FindCamera, Name_IsThatOne) {

@@ -86,7 +86,7 @@ TEST(FirstLook, WhatWasGiven_Stays_AndTheHallKeepsTheDefaults) {
     };
     EXPECT_EQ(first("builtin", {}), asked);
     EXPECT_EQ(first("a.glb", {}).lights.count, 0U);
-    EXPECT_EQ(first("a.glb", {"lights"}), asked);
+    EXPECT_EQ(first("a.glb", {"lights"}).lights.count, asked.lights.count);
     asked.lights.count = 7;
     EXPECT_EQ(first("a.glb", {"lights"}).lights.count, 7U);
 }

@@ -171,13 +171,5 @@ TEST(PosedScene, WithoutMotion_IsItself) {
     EXPECT_EQ(posedScene(scene, {}, 3).instances.size(), 3U);
 }
 
-// By 8 samples node 0 comes to 8.75; its triangle reaches 1 farther.
-TEST(SampledBounds, AreThoseOfAllVerticesWhileItMoves) {
-    const Scene scene = threeInstances();
-    const BoundsD3 bounds = sampledBounds(scene, usualClips(*scene.motion), 8);
-    EXPECT_EQ(bounds.min, glm::dvec3(0, 0, 0));
-    EXPECT_EQ(bounds.max, glm::dvec3(9.75, 1, 0));
-}
-
 } // namespace
 } // namespace froxel::motion

@@ -77,6 +77,18 @@ TEST(LookFor, AThingWithoutLights_StandsInTheStudio) {
     EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kOff);
 }
 
+TEST(LookFor, Things_WithOrWithoutMaterialsAndLight_StandBeforeTheSameBackground) {
+    settings::ViewSettings usual;
+    lookFor(makeBox({0, 0, 0}, 1), usual);
+    Scene unlit = makeBox({0, 0, 0}, 1);
+    unlit.materials[0].unlit = true;
+    for (const Scene& scene : {unlit, Scene()}) {
+        settings::ViewSettings settings;
+        lookFor(scene, settings);
+        EXPECT_EQ(settings.background, usual.background);
+    }
+}
+
 // And the studio, in case it is none.
 TEST(LookFor, ARoom_HasAFewWhiteLampsUnderItsCeiling) {
     settings::ViewSettings settings;

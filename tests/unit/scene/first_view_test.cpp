@@ -1,7 +1,11 @@
+#include "scene/enclosing_sphere.h"
+#include "scene/enclosure.h"
 #include "scene/first_view.h"
 #include "unit/scene/boxes.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace froxel::scene {
 namespace {
@@ -60,6 +64,56 @@ TEST(FirstView, OfARoom_IsFromWithinAtEyeHeightAlongIt) {
     EXPECT_NEAR(std::abs(camera.eye_world.z), 12, 0.1);
     EXPECT_GT(-camera.world_from_view[2].z * -camera.eye_world.z, 10) << "towards the other end";
     EXPECT_NEAR(camera.world_from_view[2].y, 0, 1e-9);
+}
+
+// A room of 8 x 2.7 x 6 m with a table in its middle, drawn in that unit.
+Scene furnishedRoom(double unit_m) {
+    Scene room = makeRoom({0, 0, 0}, 1);
+    const Scene table = makeBox({0, 0, 0}, 1);
+    const double scale = 1 / unit_m;
+    room.meshes.push_back(table.meshes[0]);
+    room.instances.push_back(table.instances[0]);
+    room.instances[1].mesh = 1;
+    const auto place = [&](Instance& instance, const glm::dvec3& middle_m,
+                           const glm::dvec3& half_m) {
+        for (int axis = 0; axis < 3; ++axis) {
+            instance.world_from_object[axis] = glm::dvec4(0);
+            instance.world_from_object[axis][axis] = half_m[axis] * scale;
+        }
+        instance.world_from_object[3] = glm::dvec4(middle_m * scale, 1);
+    };
+    place(room.instances[0], {0, 1.35, 0}, {4, 1.35, 3});
+    place(room.instances[1], {0, 0.375, 0}, {0.8, 0.375, 0.5});
+    room.bounds_world = {};
+    room.bounds_world.add(glm::dvec3(-4, 0, -3) * scale);
+    room.bounds_world.add(glm::dvec3(4, 2.7, 3) * scale);
+    return room;
+}
+
+TEST(FirstView, OfAFurnishedRoom_IsTheSameInAnyUnit_AndDoesNotStandOnTheTable) {
+    for (const double unit_m : {1.0, 0.01, 0.0254, 0.001}) {
+        const Scene room = furnishedRoom(unit_m);
+        const settings::Camera camera = firstViewOf(room, {}).cameraFor(kSize);
+        const glm::dvec3 eye_m = camera.eye_world * unit_m;
+        EXPECT_NEAR(eye_m.y, 1.6, 0.03) << unit_m;
+        const settings::Camera metres = firstViewOf(furnishedRoom(1), {}).cameraFor(kSize);
+        EXPECT_LT(glm::distance(eye_m, metres.eye_world), 0.05) << unit_m;
+    }
+}
+
+TEST(FirstView, UnderASky_IsOfTheHouseFromOutside) {
+    Scene scene = makeRoom({0, 0, 0}, 100);
+    const Scene house = makeBox({0, 5, 0}, 5);
+    scene.meshes.push_back(house.meshes[0]);
+    scene.instances.push_back(house.instances[0]);
+    scene.instances[1].mesh = 1;
+    EXPECT_FALSE(isRoom(scene));
+    const settings::Sphere sphere = enclosingSphere(scene);
+    EXPECT_EQ(sphere.center, glm::dvec3(0, 5, 0));
+    EXPECT_NEAR(sphere.radius_m, 5 * std::sqrt(3.0), 1e-3);
+    scene.instances[1].world_from_object = scene.instances[1].world_from_object * 8.0;
+    scene.instances[1].world_from_object[3] = glm::dvec4(45, -55, 0, 1);
+    EXPECT_TRUE(isRoom(scene)) << "things in a room are more of it";
 }
 
 struct Seen {
