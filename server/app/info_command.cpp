@@ -102,18 +102,23 @@ Json pictureReport(const std::string& file) {
     }
 }
 
+// Names are as their files have them; what of them is no UTF-8 is replaced.
+std::string textOf(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 } // namespace
 
 void runInfo(const InfoOptions& options) try {
     if (!options.scenes.empty()) {
         const Json rows = scenesReport(options.scenes);
-        std::fputs((options.json ? rows.dump(2) + "\n" : sceneTable(rows)).c_str(), stdout);
+        std::fputs((options.json ? textOf(rows) : sceneTable(rows)).c_str(), stdout);
         return;
     }
     Json info;
     if (Json picture = pictureReport(options.scene); !picture.is_null()) {
         info["picture"] = std::move(picture);
-        std::fputs((options.json ? info.dump(2) + "\n" : toText(info)).c_str(), stdout);
+        std::fputs((options.json ? textOf(info) : toText(info)).c_str(), stdout);
         return;
     }
     gpu::Device device(options.device);
@@ -128,7 +133,7 @@ void runInfo(const InfoOptions& options) try {
     info["device"] = report::toJson(report::summarize(device.traits()));
     info["limits"] = limitsOf(device);
     info["service"] = serviceReport();
-    const std::string text = options.json ? info.dump(2) + "\n" : toText(info);
+    const std::string text = options.json ? textOf(info) : toText(info);
     std::fputs(text.c_str(), stdout);
 } catch (const vk::SystemError& error) {
     throw StartupError({ErrorCode::kDevice, std::string("Vulkan: ") + error.what()});

@@ -2,10 +2,12 @@
 
 #include "app/scene_source.h"
 #include "catalogue/catalogue.h"
-#include "core/text.h"
 #include "render/renderer.h"
 #include "session/session_context.h"
 
+#include <boost/algorithm/string/classification.hpp>
+#include <boost/algorithm/string/replace.hpp>
+#include <boost/algorithm/string/trim.hpp>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
@@ -24,7 +26,7 @@ constexpr std::array<std::string_view, 10> kColumns = {
     "textures", "device_bytes", "animations", "variants", "warnings"};
 
 Json rowOf(const catalogue::Offered& file) {
-    Json row{{"path", printable(file.path, 200)}, {"bytes", file.bytes}};
+    Json row{{"path", file.path}, {"bytes", file.bytes}};
     const auto scene = loadScene(file.source);
     if (!scene) {
         row["problem"] = scene.error().message;
@@ -44,9 +46,26 @@ Json rowOf(const catalogue::Offered& file) {
 
 std::string cell(const Json& row, std::string_view column) {
     const auto found = row.find(column);
-    return found == row.end()   ? std::string()
-           : found->is_string() ? found->get<std::string>()
-                                : found->dump();
+    if (found == row.end()) {
+        return {};
+    }
+    // As JSON has it, without the quotes: control characters are escaped, others stand.
+    std::string text = found->dump(-1, ' ', false, Json::error_handler_t::replace);
+    boost::algorithm::trim_if(text, boost::algorithm::is_any_of("\""));
+    // Those of ISO 6429 beyond ASCII are none to JSON. Some terminals follow them.
+    for (unsigned char second = 0x80; second < 0xA0; ++second) {
+        const std::array<char, 2> control = {'\xC2', static_cast<char>(second)};
+        boost::algorithm::replace_all(text, std::string_view(control.data(), control.size()),
+                                      fmt::format("\\u{:04x}", second));
+    }
+    return text;
+}
+
+// fmt fills up by characters.
+size_t widthOf(const std::string& text) {
+    return text.size() - static_cast<size_t>(std::ranges::count_if(text, [](char c) {
+               return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+           }));
 }
 
 } // namespace
@@ -65,7 +84,7 @@ std::string sceneTable(const Json& rows) {
     for (size_t i = 0; i < kColumns.size(); ++i) {
         widths[i] = kColumns[i].size();
         for (const Json& row : rows) {
-            widths[i] = std::max(widths[i], cell(row, kColumns[i]).size());
+            widths[i] = std::max(widths[i], widthOf(cell(row, kColumns[i])));
         }
     }
     // The path to the left, numbers to the right.

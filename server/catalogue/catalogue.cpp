@@ -34,7 +34,7 @@ bool isSceneFile(const fs::path& file) {
     std::ranges::transform(ending, ending.begin(), [](char letter) {
         return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
     });
-    return ending == ".gltf" || ending == ".glb";
+    return ending == ".gltf" || ending == ".glb" || ending == ".vrm"; // VRM is a GLB
 }
 
 // Both are canonical, or found on one way.

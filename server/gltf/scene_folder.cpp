@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <fcntl.h>
+#include <string_view>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -55,6 +57,13 @@ bool passes(int error) {
 bool isInside(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
            folder.end();
+}
+
+// The format's specification: its first line, and at most 1024 bytes.
+bool isLfsPointer(const Bytes& bytes) {
+    constexpr std::string_view kBegin = "version https://git-lfs.github.com/spec/";
+    return bytes.size() >= kBegin.size() && bytes.size() <= 1024 &&
+           std::memcmp(bytes.data(), kBegin.data(), kBegin.size()) == 0;
 }
 
 [[noreturn]] void failToOpen(const std::string& what, int error) {
@@ -120,6 +129,11 @@ Bytes SceneFolder::readFile(const fs::path& path, bool canonical, const std::str
                  (got < 0 ? reason(errno) : "it is shorter than it was"));
         }
         done += static_cast<size_t>(got);
+    }
+    if (isLfsPointer(bytes)) {
+        throw Unusable(warning::kMissingFile, user + " names " + shown +
+                                                  ", which is a Git LFS pointer; right is the file "
+                                                  "itself, which git lfs pull fetches");
     }
     file_bytes_ += size;
     return bytes;

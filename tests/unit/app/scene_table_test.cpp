@@ -33,5 +33,14 @@ TEST(SceneTable, HasARowForEachFile_AndWhyItCannotBeRead) {
     EXPECT_NE(table.find("broken.glb        14  "), std::string::npos) << table;
 }
 
+TEST(SceneTable, NamesOfOtherAlphabets_AreAsTheyAre_AndControlCharactersAreNot) {
+    const auto rows = nlohmann::ordered_json::array(
+        {{{"path", "caf\u00e9.glb"}, {"bytes", 7}, {"problem", ""}},
+         {{"path", "a\x1B[2J\xC2\x9B.glb"}, {"bytes", 7}, {"problem", ""}}});
+    const std::string table = sceneTable(rows);
+    EXPECT_NE(table.find("caf\u00e9.glb               "), std::string::npos) << table;
+    EXPECT_NE(table.find("a\\u001b[2J\\u009b.glb"), std::string::npos) << table;
+}
+
 } // namespace
 } // namespace froxel::app

@@ -46,11 +46,12 @@ TEST_F(CatalogueTest, SceneFilesBelowTheFolder_AreOfferedByPath) {
     write("b/Fox.glb", "12345");
     write("a.gltf");
     write("A.GLB");
+    write("avatar.vrm");
     write("a.bin");
     write("a.gltf.txt");
     const Catalogue catalogue({}, folder_);
-    ASSERT_THAT(paths(catalogue), ElementsAre("A.GLB", "a.gltf", "b/Fox.glb"));
-    const Offered fox = catalogue.listing()->scenes()[2];
+    ASSERT_THAT(paths(catalogue), ElementsAre("A.GLB", "a.gltf", "avatar.vrm", "b/Fox.glb"));
+    const Offered fox = catalogue.listing()->scenes()[3];
     EXPECT_EQ(fox.name, "Fox");
     EXPECT_EQ(fox.bytes, 5U);
     EXPECT_EQ(fs::path(fox.source), fs::canonical(folder_ / "b/Fox.glb"));

@@ -141,6 +141,18 @@ TEST(Uri, DataInAnySpelling_IsDecoded) {
     EXPECT_FALSE(isDataUri("data.bin"));
 }
 
+TEST(Files, GitLfsPointer_IsNamedAsOne) {
+    const std::string pointer = "version https://git-lfs.github.com/spec/v1\n"
+                                "oid sha256:4d7a2146\nsize 12345\n";
+    const TempFolder folder;
+    EXPECT_THAT(failure(load(folder.write("scene.glb", pointer))),
+                HasSubstr("the scene names 'scene.glb', which is a Git LFS pointer"));
+    folder.write("mesh.bin", pointer);
+    SceneFile file;
+    file.json["buffers"][0]["uri"] = "mesh.bin";
+    EXPECT_THAT(failure(file.loadIn(folder)), HasSubstr("which git lfs pull fetches"));
+}
+
 TEST(Buffers, Missing_IsRefused) {
     EXPECT_THAT(refusedUri("missing.bin"), HasSubstr("buffer 0 cannot open 'missing.bin'"));
     SceneFile file;
