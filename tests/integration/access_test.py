@@ -201,5 +201,31 @@ class Access(unittest.IsolatedAsyncioTestCase):
         self.assertNotIn(NEW, log)
 
 
+class Beginning(unittest.TestCase):
+    """Servers that end as they begin."""
+
+    def serve(self, *options, **process):
+        return subprocess.run([FROXEL, "serve", "--device", "cpu", "--port", "0", "--admin-bind", "none", *options],
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300, **process)
+
+    def test_stop_signal_that_came_before_it_could_be_caught(self):
+        """As the first process of a container gets it."""
+        def hold_and_send():
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
+            os.kill(os.getpid(), signal.SIGTERM)
+        ended = self.serve("--drain-seconds", "1", preexec_fn=hold_and_send)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+
+    def test_encrypted_key_is_refused_and_not_asked_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            certificate, key, encrypted = (Path(folder) / name for name in ("cert.pem", "key.pem", "encrypted.pem"))
+            make_certificate(certificate, key, "first")
+            subprocess.run(["openssl", "pkey", "-in", key, "-aes256", "-passout", "pass:secret", "-out", encrypted],
+                           check=True, capture_output=True)
+            ended = self.serve("--tls-cert", certificate, "--tls-key", encrypted)
+        self.assertEqual(ended.returncode, 1, ended.stderr)
+        self.assertIn("encrypted.pem: is encrypted; right is a key without a passphrase", ended.stderr)
+
+
 if __name__ == "__main__":
     unittest.main()

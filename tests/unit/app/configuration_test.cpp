@@ -119,6 +119,17 @@ TEST_F(ConfigurationTest, BadValue_NamesWhereItCameFrom) {
     EXPECT_THAT(refusal({"--config", file("port = {a = 1}\n")}), HasSubstr("line 1: port must be"));
 }
 
+// As templates write it. Taken as not given, it would open the server.
+TEST_F(ConfigurationTest, EmptyValueOfWhatKeepsADoorShut_IsRefused) {
+    for (const char* variable : {"FROXEL_TOKEN_FILE", "FROXEL_ADMIN_TOKEN_FILE", "FROXEL_TLS_CERT",
+                                 "FROXEL_TLS_KEY", "FROXEL_ADDRESS", "FROXEL_CONFIG"}) {
+        EXPECT_THAT(refusal({}, {{variable, ""}}), HasSubstr(std::string(variable) + ": is empty"));
+    }
+    EXPECT_THAT(refusal({"--token-file", ""}), HasSubstr("is empty"));
+    EXPECT_THAT(refusal({"--config", file("token-file = \"\"\n")}),
+                HasSubstr(path_ + ": token-file: is empty"));
+}
+
 TEST_F(ConfigurationTest, Switch_IsTrueOrFalseAndNothingElse) {
     for (const char* value : {"1\\n2", "2", "-1", "1x", "true ", ""}) {
         const std::string line = std::string("validation = \"") + value + "\"\n";
