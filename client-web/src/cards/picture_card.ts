@@ -40,8 +40,7 @@ export class PictureCard {
       return;
     }
     const shown = this.actions.pictureSize();
-    const readable = 'This browser lets no page save what it shows; the server draws the picture again.';
-    this.said.textContent = !shown ? 'There is no picture to save yet.' : this.actions.isReadable() ? '' : readable;
+    this.said.textContent = shown ? '' : 'There is no picture to save yet.';
     this.list.replaceChildren(...(shown ? this.items(shown) : []));
     this.dialog.showModal();
   }

@@ -4,19 +4,17 @@
 /** The part of sessionStorage that is used. */
 export type Shelf = Pick<Storage, 'getItem' | 'removeItem' | 'setItem'>;
 
+/** A question, whose a token is, or the answer. */
+export interface Word {
+  readonly whose?: string;
+  readonly mine?: string;
+}
+
 /** The part of BroadcastChannel that is used, among all tabs of this page. */
 export interface Tabs {
-  post(message: unknown): void;
-  listen(heard: (message: unknown) => void): void;
+  post(word: Word): void;
+  listen(heard: (word: Word) => void): void;
 }
-
-interface Word {
-  readonly says: 'whose' | 'mine';
-  readonly token: string;
-}
-
-const isWord = (message: unknown): message is Word =>
-  typeof message === 'object' && message !== null && 'says' in message && 'token' in message;
 
 export class Resume {
   private readonly key: string;
@@ -31,7 +29,7 @@ export class Resume {
     private readonly tabs: Tabs | null = null,
   ) {
     this.key = `froxel.resume.${room}`;
-    tabs?.listen((message) => this.hear(message));
+    tabs?.listen((word) => this.hear(word));
   }
 
   private kept = '';
@@ -47,16 +45,14 @@ export class Resume {
     await new Promise<void>((resolve) => {
       this.claimed = resolve;
       setTimeout(resolve, waitMs);
-      tabs.post({ says: 'whose', token } satisfies Word);
+      tabs.post({ whose: token });
     });
     this.claimed = null;
   }
 
-  private hear(message: unknown): void {
-    if (!isWord(message)) return;
-    if (message.says === 'whose') {
-      if (this.kept !== '' && message.token === this.kept) this.tabs?.post({ says: 'mine', token: this.kept } satisfies Word);
-    } else if (this.claimed && message.token === this.token) {
+  private hear({ whose, mine }: Word): void {
+    if (whose && whose === this.kept) this.tabs?.post({ mine: whose });
+    if (mine && mine === this.token && this.claimed) {
       this.keep('');
       this.claimed();
     }
@@ -84,8 +80,8 @@ export function tabsChannel(): Tabs | null {
   try {
     const channel = new BroadcastChannel('froxel.tabs');
     return {
-      post: (message) => channel.postMessage(message),
-      listen: (heard) => channel.addEventListener('message', (event) => heard(event.data)),
+      post: (word) => channel.postMessage(word),
+      listen: (heard) => channel.addEventListener('message', (event: MessageEvent<Word>) => heard(event.data)),
     };
   } catch {
     return null;

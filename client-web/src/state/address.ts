@@ -110,10 +110,7 @@ export function stillAddress(settings: Settings, scene: string, over: string): s
 }
 
 /** What others add to links that pass through them, to follow who clicks: nobody typed it. */
-const kStrangers: ReadonlySet<string> = new Set(
-  'fbclid gclid dclid gbraid wbraid msclkid ttclid twclid yclid igsh igshid li_fat_id srsltid mc_cid mc_eid mkt_tok _ga _gl _hsenc _hsmi ref ref_src si spm'.split(' '),
-);
-const isStranger = (name: string): boolean => name.startsWith('utm_') || kStrangers.has(name);
+const kStrangers = /^(utm_|mc_|igsh|(\w*clk?id|_g[al]|srsltid|ref|si)$)/;
 
 /** Reads a fragment with or without its '#'. Never throws. */
 export function parseAddress(fragment: string): Address {
@@ -131,7 +128,7 @@ export function parseAddress(fragment: string): Address {
       lightSet = text;
       continue;
     }
-    if (isStranger(name)) continue;
+    if (kStrangers.test(name)) continue;
     const found = parseEntry(kFormerNames.get(name) ?? name, text);
     if (found === null) {
       problems.push(`link: ${name.slice(0, 30)}=${text.slice(0, 60)} is not understood`);

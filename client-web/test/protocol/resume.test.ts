@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
-import { Resume, type Shelf, type Tabs } from '../../src/protocol/resume';
+import { Resume, type Shelf, type Tabs, type Word } from '../../src/protocol/resume';
 
 function fakeShelf(kept: [string, string][] = []): Shelf {
   const items = new Map(kept);
@@ -12,13 +12,13 @@ function fakeShelf(kept: [string, string][] = []): Shelf {
 }
 
 function fakeTabs(): { tabs: () => Tabs } {
-  const all: ((message: unknown) => void)[][] = [];
+  const all: ((word: Word) => void)[][] = [];
   return {
     tabs: () => {
-      const mine: ((message: unknown) => void)[] = [];
+      const mine: ((word: Word) => void)[] = [];
       all.push(mine);
       return {
-        post: (message) => all.filter((one) => one !== mine).forEach((one) => one.forEach((heard) => heard(message))),
+        post: (word) => all.filter((one) => one !== mine).forEach((one) => one.forEach((heard) => heard(word))),
         listen: (heard) => mine.push(heard),
       };
     },
