@@ -146,12 +146,12 @@ std::optional<Response> StillAnswers::read(const Request& request,
     if (!target) {
         return refused(http::status::bad_request, "malformed", "", "the address is malformed");
     }
-    std::set<std::string> names;
+    std::set<std::string> given;
     for (const auto& said : target->params()) {
         if (said.key.empty() && !said.has_value) { // nothing between two &
             continue;
         }
-        if (!names.insert(said.key).second) {
+        if (!given.insert(said.key).second) {
             return refused(http::status::bad_request, "out_of_range", printable(said.key),
                            "is given twice");
         }
