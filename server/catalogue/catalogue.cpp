@@ -1,5 +1,6 @@
 #include "catalogue/catalogue.h"
 
+#include "core/is_inside.h"
 #include "core/text.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -35,11 +36,6 @@ bool isSceneFile(const fs::path& file) {
         return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
     });
     return ending == ".gltf" || ending == ".glb" || ending == ".vrm"; // VRM is a GLB
-}
-
-// Both are canonical, or found on one way.
-bool isInside(const fs::path& file, const fs::path& folder) {
-    return std::ranges::mismatch(folder, file).in1 == folder.end();
 }
 
 uint64_t randomNumber() {

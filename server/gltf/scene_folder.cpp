@@ -1,5 +1,6 @@
 #include "gltf/scene_folder.h"
 
+#include "core/is_inside.h"
 #include "core/text.h"
 #include "gltf/failure.h"
 #include "gltf/uri.h"
@@ -52,11 +53,6 @@ bool isAt(int descriptor, const fs::path& canonical) {
 // Of an error that says nothing about the file: what it belongs to cannot do without it this time.
 bool passes(int error) {
     return error == EMFILE || error == ENFILE || error == ENOMEM || error == EIO || error == ESTALE;
-}
-
-bool isInside(const fs::path& path, const fs::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
-           folder.end();
 }
 
 // The format's specification: its first line, and at most 1024 bytes.

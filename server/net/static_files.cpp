@@ -1,5 +1,6 @@
 #include "net/static_files.h"
 
+#include "core/is_inside.h"
 #include "core/text.h"
 
 #include <boost/beast/http/rfc7230.hpp>
@@ -87,8 +88,7 @@ Error ioError(const fs::path& path, const std::string& what) {
 bool isServed(const fs::directory_entry& entry, const fs::path& real_root) {
     std::error_code failure;
     const fs::path real = fs::canonical(entry.path(), failure);
-    return !failure && std::ranges::mismatch(real_root, real).in1 == real_root.end() &&
-           fs::is_regular_file(real, failure);
+    return !failure && isInside(real, real_root) && fs::is_regular_file(real, failure);
 }
 
 std::optional<std::string> readFile(const fs::path& path) {
