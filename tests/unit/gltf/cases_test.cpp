@@ -69,8 +69,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"values/10_scale0_spot.gltf", "light 0 is on a node whose scale is 0"},
         Case{"values/10_scale1_to_0.gltf", "", 1, 2},
         Case{"values/21_ymag_negative.gltf", "camera 1 has ymag -2; 2 is used", 1, 2}),
-    [](const auto& info) {
-        return std::filesystem::path(info.param.file).stem().string().substr(3);
+    [](const auto& tested) {
+        return std::filesystem::path(tested.param.file).stem().string().substr(3);
     });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -81,8 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"uris/08_reference.gltf", "", 1, 1, 1},
                     Case{"uris/09_percent_bin.gltf", ""},
                     Case{"uris/09_percent_image.gltf", "", 1, 1, 1}),
-    [](const auto& info) {
-        return std::filesystem::path(info.param.file).stem().string().substr(3);
+    [](const auto& tested) {
+        return std::filesystem::path(tested.param.file).stem().string().substr(3);
     });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -91,8 +91,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"refused/morphLoader.glb", "has the interpolation '0'; right is STEP", 0,
                          0},
                     Case{"refused/meshopt-no-fallback/meshopt-no-fallback.gltf", "", 0, 0}),
-    [](const auto& info) {
-        std::string name = std::filesystem::path(info.param.file).stem().string();
+    [](const auto& tested) {
+        std::string name = std::filesystem::path(tested.param.file).stem().string();
         std::replace(name.begin(), name.end(), '-', '_');
         return name;
     });
