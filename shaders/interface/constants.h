@@ -28,6 +28,8 @@ FROXEL_CONST uint kMaterialSheen = 1U << 10;               // fibres over it, be
 FROXEL_CONST uint kMaterialAnisotropy = 1U << 11;          // highlights of two roughnesses
 FROXEL_CONST uint kMaterialFilm = 1U << 12;                // iridescence
 FROXEL_CONST uint kMaterialDiffuseTransmission = 1U << 13; // light comes through it, scattered
+// Of the device, not of a material: lib/fragment_material.glsl takes gradients by itself.
+FROXEL_CONST uint kMaterialGradients = 1U << 14;
 // Layers, of which lights add up what each reflects; and what else the G-buffer has no room for.
 // The shaders of FROXEL_LAYERED alone know them.
 FROXEL_CONST uint kMaterialLitLayers =

@@ -2,7 +2,7 @@
 # Packs what check_gpu.sh needs on a machine that has only a Vulkan driver: the binary, the suites that draw, their
 # libraries, the validation layer, and the scenes that are there.
 #   ./tests/bench/pack_gpu.sh BUILD PACK.tar.xz [SCENE...]      SCENE: a folder of ../shared/scenes
-# There: tar -xJf PACK.tar.xz && ./gpu/repository/tests/check_gpu.sh gpu OUT
+# There: tar -xJf PACK.tar.xz && ./gpu/repository/tests/bench/check_gpu.sh gpu OUT
 set -euo pipefail
 build=$1
 pack=$2
@@ -37,7 +37,9 @@ ldd "$gpu"/bin/* "$gpu"/layer/*.so 2>/dev/null | awk '$3 ~ /^\// { print $3 }' |
     while read -r library; do cp -L "$library" "$gpu/lib/"; done
 cp -L "$(ldconfig -p | awk '/libvulkan\.so\.1 / { print $NF; exit }')" "$gpu/lib/"
 
-cp -r "$root"/tests/{bench/check_gpu.sh,hostile,load,support} "$gpu/repository/tests/"
+cp -r "$root"/tests/{hostile,load,support} "$gpu/repository/tests/"
+mkdir "$gpu/repository/tests/bench"
+cp "$root"/tests/bench/{check_gpu.sh,compare_lists.py} "$gpu/repository/tests/bench/"
 # What the suites read beside the repository; they skip what is not there, and say so.
 scenes=$root/../shared/scenes
 for scene in "${kept[@]}"; do

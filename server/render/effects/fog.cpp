@@ -65,7 +65,7 @@ class FogPipelines {
 
 vk::Pipeline FogPipelines::pipeline(FogShader shader, const VariantKey& key) {
     return *made_.findOrMake(std::pair(shader, key), [=, this] {
-        const auto constants = specConstants(key, std::max(1U, device_.traits().subgroup_size));
+        const auto constants = specConstants(key, device_.traits());
         switch (shader) {
         case FogShader::kScatter:
             return gpu::makeComputePipeline(device_, shaders::fog_scatter_comp(), constants,

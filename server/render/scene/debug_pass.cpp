@@ -55,8 +55,9 @@ vk::Pipeline DebugPass::pipeline(DebugShader shader, const VariantKey& key) {
 vk::raii::Pipeline DebugPass::make(DebugShader shader, const VariantKey& key) const {
     switch (shader) {
     case DebugShader::kValues:
-        return gpu::makeComputePipeline(device_, shaders::debug_view_comp(), specConstants(key, 1),
-                                        *values_layout_, "debug view");
+        return gpu::makeComputePipeline(device_, shaders::debug_view_comp(),
+                                        specConstants(key, device_.traits()), *values_layout_,
+                                        "debug view");
     case DebugShader::kLightWires:
         return gpu::makeGraphicsPipeline(
             device_, wiresInfo(shaders::light_wires_vert(), wires_layout_), "light wires");

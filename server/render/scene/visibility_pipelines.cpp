@@ -104,7 +104,7 @@ VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
 }
 
 gpu::SpecConstants VisibilityPipelines::constants(const VariantKey& key) const {
-    return specConstants(key, std::max(1U, device_.traits().subgroup_size));
+    return specConstants(key, device_.traits());
 }
 
 vk::raii::Pipeline VisibilityPipelines::makeRaster(MaterialFlags material_flags) const {
@@ -112,7 +112,7 @@ vk::raii::Pipeline VisibilityPipelines::makeRaster(MaterialFlags material_flags)
     const bool masked = (material_flags & io::kMaterialMask) != 0;
     const bool extended = masked && (material_flags & io::kMaterialExtended) != 0;
     gpu::GraphicsPipelineInfo info;
-    info.constants = constants({masked ? material_flags : 0U, 0, 0});
+    info.constants = fragmentConstants({masked ? material_flags : 0U, 0, 0}, device_.traits());
     info.layout = *raster_layout_;
     info.color_formats = {kIdFormat};
     info.depth_format = Pipelines::kDepthFormat;
