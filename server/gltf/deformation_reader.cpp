@@ -33,13 +33,13 @@ readSets(VertexSource& source, size_t count, Budget& budget, const std::string& 
         const std::string number = std::to_string(sets.size());
         const std::string joints = "JOINTS_" + number;
         const std::string weights = "WEIGHTS_" + number;
-        if (!source.has(joints.c_str()) || !source.has(weights.c_str())) {
+        if (!source.has(joints) || !source.has(weights)) {
             return sets;
         }
         budget.take(uint64_t{count} * 4, user + " " + joints);
         InfluenceSet& set = sets.emplace_back();
-        set.joints = source.vectors<4>(joints.c_str(), count);
-        set.weights = source.vectors<4>(weights.c_str(), count);
+        set.joints = source.vectors<4>(joints, count);
+        set.weights = source.vectors<4>(weights, count);
     }
 }
 

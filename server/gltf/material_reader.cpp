@@ -183,38 +183,59 @@ uint32_t MaterialReader::material(int index, const std::string& pointer, const s
                         thing("material", static_cast<size_t>(index)));
     }
     const auto position = static_cast<uint32_t>(scene_.materials.size());
+    auto set = texcoord_sets_[position].begin();
+    for (scene::TextureSlot* slot : textureSlots(material)) {
+        *set++ = std::exchange(slot->texcoord, std::min(slot->texcoord, 1U));
+    }
     scene_.materials.push_back(std::move(material));
     known_materials_.emplace(index, position);
     return position;
 }
 
+std::vector<uint32_t> MaterialReader::texcoordSets(uint32_t material) const {
+    std::vector<uint32_t> read;
+    auto set = texcoord_sets_.at(material).begin();
+    for (const scene::TextureSlot* slot : textureSlots(scene_.materials[material])) {
+        if (slot->texture != scene::kNone && std::ranges::find(read, *set) == read.end()) {
+            read.push_back(*set);
+        }
+        ++set;
+    }
+    return read;
+}
+
 uint32_t MaterialReader::withTexcoords(uint32_t material,
-                                       bool has_uv0,
-                                       bool has_uv1,
+                                       const TexcoordPlaces& places,
                                        const std::string& pointer,
                                        const std::string& user) {
-    const auto lacks = [&](const scene::TextureSlot* slot) {
-        return slot->texture != scene::kNone && !(slot->texcoord == 0 ? has_uv0 : has_uv1);
-    };
-    const auto slots = textureSlots(scene_.materials[material]);
-    const auto count = std::count_if(slots.begin(), slots.end(), lacks);
-    if (count == 0) {
+    scene::Material changed = scene_.materials[material];
+    auto set = texcoord_sets_.at(material).begin();
+    size_t left_out = 0;
+    bool moved = false;
+    for (scene::TextureSlot* slot : textureSlots(changed)) {
+        const auto place = places.find(*set++);
+        if (slot->texture == scene::kNone) {
+            continue;
+        }
+        if (place == places.end()) {
+            clearTexture(changed, *slot);
+            ++left_out;
+        } else {
+            moved |= place->second != std::exchange(slot->texcoord, place->second);
+        }
+    }
+    if (left_out > 0) {
+        warnings_.add(warning::kNoTexcoord, pointer,
+                      user + " has no texture coordinates for " + std::to_string(left_out) +
+                          " textures of its material, which it goes without");
+    }
+    if (left_out == 0 && !moved) {
         return material;
     }
-    warnings_.add(warning::kNoTexcoord, pointer,
-                  user + " has no texture coordinates for " + std::to_string(count) +
-                      " textures of its material, which it goes without");
     const auto position = static_cast<uint32_t>(scene_.materials.size());
-    const auto [known, is_new] =
-        without_texcoords_.try_emplace({material, has_uv0 ? 1U : 0U, has_uv1 ? 1U : 0U}, position);
+    const auto [known, is_new] = with_texcoords_.try_emplace({material, places}, position);
     if (is_new) {
-        scene::Material reduced = scene_.materials[material];
-        for (scene::TextureSlot* slot : textureSlots(reduced)) {
-            if (lacks(slot)) {
-                clearTexture(reduced, *slot);
-            }
-        }
-        scene_.materials.push_back(std::move(reduced));
+        scene_.materials.push_back(std::move(changed));
     }
     return known->second;
 }
@@ -358,12 +379,6 @@ scene::TextureSlot MaterialReader::slot(const Info& info, const std::string& use
         slot.scale = pairOr(*transform, "scale", slot.scale);
         slot.rotation_rad = static_cast<float>(numberIn(*transform, "rotation", 0, user));
         texcoord = intOr(*transform, "texCoord", texcoord);
-    }
-    if (texcoord > 1) {
-        warnings_.add(warning::kThirdTexcoord, pointer_,
-                      user + " uses TEXCOORD_" + std::to_string(texcoord) +
-                          " and is ignored; 0 and 1 are supported");
-        return {};
     }
     slot.texcoord = static_cast<uint32_t>(texcoord);
     slot.texture = texture(*index, user);

@@ -17,6 +17,10 @@
 
 namespace froxel::gltf {
 
+// Of a primitive: where its sets of texture coordinates are, by their numbers in the file; as
+// Primitive::uv0 and uv1, so at most two places. Sets that are equal share one.
+using TexcoordPlaces = std::map<uint32_t, uint32_t>;
+
 // Not thread-safe. Appends to `scene`. What is out of range is brought to the nearest that makes
 // sense, and what is not there is left out, with a warning.
 class MaterialReader {
@@ -25,14 +29,19 @@ class MaterialReader {
         : document_(document), scene_(scene), warnings_(warnings) {}
 
     // The scene's index of the material of the file that the primitive which `pointer` and `user`
-    // name uses; -1 means glTF's default material.
+    // name uses; -1 means glTF's default material. Its textures' coordinates are those of
+    // withTexcoords() alone.
     [[nodiscard]] uint32_t material(int index, const std::string& pointer, const std::string& user);
 
-    // The material without the textures that need a set of coordinates which the primitive that
-    // `pointer` and `user` name does not have; itself where there are none.
+    // The sets of texture coordinates that a material reads, by their numbers in the file: its
+    // base colour's first.
+    [[nodiscard]] std::vector<uint32_t> texcoordSets(uint32_t material) const;
+
+    // The material for the primitive that `pointer` and `user` name: its textures take their
+    // coordinates from where that has them, and those whose set has no place are left out. Itself
+    // where it needs no change.
     [[nodiscard]] uint32_t withTexcoords(uint32_t material,
-                                         bool has_uv0,
-                                         bool has_uv1,
+                                         const TexcoordPlaces& places,
                                          const std::string& pointer,
                                          const std::string& user);
 
@@ -82,7 +91,9 @@ class MaterialReader {
     scene::Scene& scene_;
     Warnings& warnings_;
     std::map<int, uint32_t> known_materials_;
-    std::map<std::array<uint32_t, 3>, uint32_t> without_texcoords_; // by what withTexcoords() takes
+    // Of materials of scene_, by their indices: the set of each slot, by its number in the file.
+    std::map<uint32_t, std::array<uint32_t, io::kMaterialSlots>> texcoord_sets_;
+    std::map<std::pair<uint32_t, TexcoordPlaces>, uint32_t> with_texcoords_; // by what it takes
     std::string pointer_; // of the material that is being read, or of who uses it
     std::map<size_t, uint32_t> known_textures_;
     std::map<int, uint32_t> known_samplers_;

@@ -10,6 +10,7 @@
 #include "gltf/vertex_source.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -211,10 +212,10 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
     if (primitive.indices.empty()) {
         return std::nullopt;
     }
+    readMaterials(source, stream, primitive, pointer, user);
     readMotion(source, stream, use, primitive, pointer, user);
     finishNormals(stream.has("NORMAL"), primitive, pointer, user);
     finishTangents(primitive, pointer, user);
-    readMaterials(source, primitive, pointer, user);
     makeTangents(use, primitive, user);
     for (const glm::vec3& position : primitive.positions) {
         primitive.bounds.add(position);
@@ -260,19 +261,71 @@ std::unique_ptr<DracoMesh> MeshReader::openDraco(const tinygltf::Primitive& sour
 }
 
 void MeshReader::readMaterials(const tinygltf::Primitive& source,
+                               VertexSource& stream,
                                scene::Primitive& primitive,
                                const std::string& pointer,
                                const std::string& user) {
-    const auto read = [&](int material) {
-        return materials_.withTexcoords(materials_.material(material, pointer, user),
-                                        !primitive.uv0.empty(), !primitive.uv1.empty(), pointer,
-                                        user);
+    const auto variants =
+        variantMaterials(source, scene_.material_variants.size(), pointer, user, warnings_);
+    std::vector<uint32_t> sets;
+    const auto read = [&](int index) {
+        const uint32_t material = materials_.material(index, pointer, user);
+        for (const uint32_t set : materials_.texcoordSets(material)) {
+            if (std::ranges::find(sets, set) == sets.end()) {
+                sets.push_back(set);
+            }
+        }
+        return material;
     };
     primitive.material = read(source.material);
-    for (const auto& [variant, material] :
-         variantMaterials(source, scene_.material_variants.size(), pointer, user, warnings_)) {
+    for (const auto& [variant, material] : variants) {
         primitive.variant_materials.push_back({variant, read(material)});
     }
+    const TexcoordPlaces places = readTexcoords(sets, stream, primitive, pointer, user);
+    primitive.material = materials_.withTexcoords(primitive.material, places, pointer, user);
+    for (scene::VariantMaterial& of : primitive.variant_materials) {
+        of.material = materials_.withTexcoords(of.material, places, pointer, user);
+    }
+}
+
+TexcoordPlaces MeshReader::readTexcoords(const std::vector<uint32_t>& sets,
+                                         VertexSource& source,
+                                         scene::Primitive& primitive,
+                                         const std::string& pointer,
+                                         const std::string& user) {
+    // Usually both are read, each into its own: what has no texture may still have a direction.
+    const bool usual = std::ranges::all_of(sets, [](uint32_t set) { return set < 2; });
+    const std::array streams = {&primitive.uv0, &primitive.uv1};
+    const auto placeOf = [&](uint32_t set, const std::vector<glm::vec2>& texcoords) {
+        uint32_t place = usual ? set : 0;
+        while (!usual && place < streams.size() && !streams[place]->empty() &&
+               *streams[place] != texcoords) {
+            ++place;
+        }
+        return place;
+    };
+    TexcoordPlaces places;
+    for (const uint32_t set : usual ? std::vector{0U, 1U} : sets) {
+        const std::string semantic = "TEXCOORD_" + std::to_string(set);
+        std::vector<glm::vec2> texcoords;
+        readStream(source, semantic, pointer,
+                   [&] { texcoords = source.vectors<2>(semantic, primitive.positions.size()); });
+        if (texcoords.empty()) {
+            continue;
+        }
+        repairTexcoords(texcoords, semantic, pointer, user, warnings_);
+        const uint32_t place = placeOf(set, texcoords);
+        if (place == streams.size()) {
+            warnings_.add(warning::kThirdTexcoord, pointer + "/attributes/" + semantic,
+                          user + " has " + semantic +
+                              " as a third set of coordinates that its material reads; it is left "
+                              "out, since two are supported");
+            continue;
+        }
+        *streams[place] = std::move(texcoords);
+        places[set] = place;
+    }
+    return places;
 }
 
 void MeshReader::makeTangents(const Use& use,
@@ -326,24 +379,30 @@ std::vector<uint32_t> MeshReader::readIndices(const tinygltf::Primitive& source,
     return indices;
 }
 
+void MeshReader::readStream(VertexSource& source,
+                            const std::string& semantic,
+                            const std::string& pointer,
+                            const std::function<void()>& read) {
+    if (!source.has(semantic)) {
+        return;
+    }
+    try {
+        read();
+    } catch (const Failure& failure) {
+        source.leaveOut(semantic);
+        warnings_.add(warning::kNoStream, pointer + "/attributes/" + semantic,
+                      failure.what() + std::string("; it is left out"));
+    }
+}
+
 void MeshReader::readStreams(VertexSource& source,
                              scene::Primitive& primitive,
                              const std::string& pointer,
                              const std::string& user) {
     const size_t count = primitive.positions.size();
     const auto read = [&](const char* semantic, auto& stream, const auto& vectors) {
-        if (!source.has(semantic)) {
-            return;
-        }
-        try {
-            stream = vectors(semantic);
-        } catch (const Failure& failure) {
-            source.leaveOut(semantic);
-            warnings_.add(warning::kNoStream, pointer + "/attributes/" + semantic,
-                          failure.what() + std::string("; it is left out"));
-        }
+        readStream(source, semantic, pointer, [&] { stream = vectors(semantic); });
     };
-    const auto twos = [&](const char* semantic) { return source.vectors<2>(semantic, count); };
     read("NORMAL", primitive.normals,
          [&](const char* semantic) { return source.vectors<3>(semantic, count); });
     if (!source.has("NORMAL") && primitive.indices.size() > count) {
@@ -352,8 +411,6 @@ void MeshReader::readStreams(VertexSource& source,
         read("TANGENT", primitive.tangents,
              [&](const char* semantic) { return source.vectors<4>(semantic, count); });
     }
-    read("TEXCOORD_0", primitive.uv0, twos);
-    read("TEXCOORD_1", primitive.uv1, twos);
     read("COLOR_0", primitive.colors, [&](const char* semantic) {
         const int components = accessors_.components(source.accessor(semantic), user);
         return readColors(source, components, count);

@@ -12,6 +12,7 @@
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -86,13 +87,25 @@ class MeshReader {
                                                     const DracoMesh* draco,
                                                     size_t vertex_count,
                                                     const std::string& user);
-    // All that a primitive can do without: what cannot be read is left out, with a warning.
+    // What a primitive can do without: if read() throws a Failure, it is left out with a warning.
+    void readStream(VertexSource& source,
+                    const std::string& semantic,
+                    const std::string& pointer,
+                    const std::function<void()>& read);
+    // Normals, tangents, colours.
     void readStreams(VertexSource& source,
                      scene::Primitive& primitive,
                      const std::string& pointer,
                      const std::string& user);
-    // Of the primitive, whose streams are read, and of its variants.
+    // Into uv0 and uv1 the two sets that its materials read.
+    [[nodiscard]] TexcoordPlaces readTexcoords(const std::vector<uint32_t>& sets,
+                                               VertexSource& source,
+                                               scene::Primitive& primitive,
+                                               const std::string& pointer,
+                                               const std::string& user);
+    // Of the primitive and of its variants, and their texture coordinates.
     void readMaterials(const tinygltf::Primitive& source,
+                       VertexSource& stream,
                        scene::Primitive& primitive,
                        const std::string& pointer,
                        const std::string& user);

@@ -33,6 +33,23 @@ void dropTriangles(scene::Primitive& primitive) {
     primitive.indices = std::move(kept);
 }
 
+struct NotFinite {
+    std::string semantic;
+    size_t count = 0;
+    const char* consequence = "";
+};
+
+void tellNotFinite(const NotFinite& found,
+                   const std::string& pointer,
+                   const std::string& user,
+                   Warnings& warnings) {
+    if (found.count > 0) {
+        warnings.add(warning::kNotFinite, pointer + "/attributes/" + found.semantic,
+                     user + " has " + std::to_string(found.count) + " elements of " +
+                         found.semantic + " that are not finite; " + found.consequence);
+    }
+}
+
 } // namespace
 
 void repairStreams(scene::Primitive& primitive,
@@ -40,11 +57,7 @@ void repairStreams(scene::Primitive& primitive,
                    const std::string& user,
                    Warnings& warnings) {
     const auto tell = [&](const char* semantic, size_t count, const char* consequence) {
-        if (count > 0) {
-            warnings.add(warning::kNotFinite, pointer + "/attributes/" + semantic,
-                         user + " has " + std::to_string(count) + " elements of " + semantic +
-                             " that are not finite; " + consequence);
-        }
+        tellNotFinite({semantic, count, consequence}, pointer, user, warnings);
     };
     std::vector<glm::vec3>& positions = primitive.positions;
     const auto whole = std::find_if(positions.begin(), positions.end(), isFinite<glm::vec3>);
@@ -57,9 +70,16 @@ void repairStreams(scene::Primitive& primitive,
     }
     replace(primitive.normals, glm::vec3(0));
     replace(primitive.tangents, glm::vec4(0));
-    tell("TEXCOORD_0", replace(primitive.uv0, glm::vec2(0)), "0, 0 is used");
-    tell("TEXCOORD_1", replace(primitive.uv1, glm::vec2(0)), "0, 0 is used");
     tell("COLOR_0", replace(primitive.colors, glm::vec4(1)), "white is used");
+}
+
+void repairTexcoords(std::vector<glm::vec2>& texcoords,
+                     const std::string& semantic,
+                     const std::string& pointer,
+                     const std::string& user,
+                     Warnings& warnings) {
+    tellNotFinite({semantic, replace(texcoords, glm::vec2(0)), "0, 0 is used"}, pointer, user,
+                  warnings);
 }
 
 void recomputeNormals(scene::Primitive& primitive, const std::vector<uint32_t>& vertices) {

@@ -19,19 +19,20 @@ class VertexSource {
                  std::string user)
         : primitive_(primitive), accessors_(accessors), draco_(draco), user_(std::move(user)) {}
 
-    [[nodiscard]] bool has(const char* semantic) const {
+    [[nodiscard]] bool has(const std::string& semantic) const {
         return primitive_.attributes.contains(semantic) && !left_out_.contains(semantic);
     }
     // From now on it is not there.
-    void leaveOut(const char* semantic) { left_out_.insert(semantic); }
-    [[nodiscard]] int accessor(const char* semantic) const {
+    void leaveOut(const std::string& semantic) { left_out_.insert(semantic); }
+    [[nodiscard]] int accessor(const std::string& semantic) const {
         return primitive_.attributes.at(semantic);
     }
 
     // `count` elements of N components, finite or not. Throws Failure where the attribute has
     // another count.
     template <int N>
-    [[nodiscard]] std::vector<glm::vec<N, float>> vectors(const char* semantic, size_t count) {
+    [[nodiscard]] std::vector<glm::vec<N, float>> vectors(const std::string& semantic,
+                                                          size_t count) {
         const int index = accessor(semantic);
         const std::string user = user_ + " " + semantic;
         if (draco_ != nullptr && draco_->has(semantic)) {

@@ -85,6 +85,13 @@ INSTANTIATE_TEST_SUITE_P(
         return std::filesystem::path(tested.param.file).stem().string().substr(3);
     });
 
+INSTANTIATE_TEST_SUITE_P(Texcoords,
+                         Cases,
+                         testing::Values(Case{"texcoord-2-and-3/texcoord_2.gltf", "", 0, 0, 1}),
+                         [](const auto& tested) {
+                             return std::filesystem::path(tested.param.file).stem().string();
+                         });
+
 INSTANTIATE_TEST_SUITE_P(
     Refused,
     Cases,

@@ -244,7 +244,7 @@ TEST(Leniency, TexcoordAndColorNotFinite_AreZeroAndWhite) {
     file.attributes()["COLOR_0"] = file.addAccessor<float>({0.5F, 0, 0, kNan, 0, 0, 0.5F, 0, 0}, 3);
     const scene::Scene scene = loaded(file.load());
     EXPECT_THAT(test::warningLines(scene),
-                ElementsAre(HasSubstr("TEXCOORD_0"), HasSubstr("COLOR_0")));
+                ElementsAre(HasSubstr("COLOR_0"), HasSubstr("TEXCOORD_0")));
     const scene::Primitive& primitive = scene.meshes.at(0).primitives.at(0);
     EXPECT_EQ(primitive.uv0.at(1), glm::vec2(0));
     EXPECT_EQ(primitive.uv0.at(0), glm::vec2(0.5, 1));

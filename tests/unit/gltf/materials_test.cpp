@@ -371,11 +371,77 @@ TEST(Materials, TextureTransform_IsRead) {
     EXPECT_EQ(slot.texcoord, 1U);
 }
 
-TEST(Materials, ThirdTexcoord_IsIgnoredWithAWarning) {
+// Sets 2 and on: each begins with its own number.
+SceneFile withManyTexcoords(const char* material) {
+    SceneFile file = textured(material);
+    for (const float set : {2.0F, 3.0F, 4.0F}) {
+        file.attributes()["TEXCOORD_" + std::to_string(static_cast<int>(set))] =
+            file.addAccessor<float>({set, 0, 1, 0, 0, 1}, 2);
+    }
+    return file;
+}
+
+// A primitive has room for two sets, whichever its materials read.
+TEST(Materials, AnyTwoSetsOfTexcoords_AreRead) {
+    const scene::Scene scene = loaded(withManyTexcoords(
+                                          R"({"emissiveTexture": {"index": 0, "texCoord": 3},
+            "occlusionTexture": {"index": 1, "texCoord": 2}})")
+                                          .load());
+    EXPECT_THAT(test::warningLines(scene), testing::IsEmpty());
+    const scene::Primitive& primitive = scene.meshes.at(0).primitives.at(0);
+    const scene::Material& material = scene.materials.at(primitive.material);
+    const auto firstOf = [&](const scene::TextureSlot& slot) {
+        return (slot.texcoord == 0 ? primitive.uv0 : primitive.uv1).at(0).x;
+    };
+    EXPECT_EQ(firstOf(material.emissive_texture), 3);
+    EXPECT_EQ(firstOf(material.occlusion_texture), 2);
+    EXPECT_NE(material.emissive_texture.texture, scene::kNone);
+    EXPECT_NE(material.occlusion_texture.texture, scene::kNone);
+}
+
+TEST(Materials, EqualSetsOfTexcoords_AreOne) {
+    SceneFile file = withManyTexcoords(
+        R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
+            "emissiveTexture": {"index": 0, "texCoord": 4},
+            "occlusionTexture": {"index": 1, "texCoord": 2}})");
+    file.attributes()["TEXCOORD_4"] = file.addAccessor<float>({0, 0, 1, 0, 0, 1}, 2);
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_THAT(test::warningLines(scene), testing::IsEmpty());
+    const scene::Primitive& primitive = scene.meshes.at(0).primitives.at(0);
+    const scene::Material& material = scene.materials.at(primitive.material);
+    EXPECT_EQ(material.base_color_texture.texcoord, 0U);
+    EXPECT_EQ(material.emissive_texture.texcoord, 0U) << "as set 0";
+    EXPECT_EQ(material.occlusion_texture.texcoord, 1U);
+    EXPECT_EQ(primitive.uv1.at(0).x, 2);
+}
+
+TEST(Materials, AThirdSetOfTexcoords_IsLeftOutWithAWarning) {
     const scene::Scene scene =
-        loaded(textured(R"({"emissiveTexture": {"index": 0, "texCoord": 2}})").load());
-    EXPECT_EQ(scene.materials.at(0).emissive_texture.texture, scene::kNone);
-    EXPECT_THAT(test::warningLines(scene), ElementsAre(HasSubstr("TEXCOORD_2")));
+        loaded(withManyTexcoords(
+                   R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
+            "emissiveTexture": {"index": 0, "texCoord": 4},
+            "occlusionTexture": {"index": 1, "texCoord": 2}})")
+                   .load());
+    EXPECT_THAT(test::warningLines(scene),
+                ElementsAre(HasSubstr("TEXCOORD_4 as a third set"), HasSubstr("for 1 textures")));
+    const scene::Primitive& primitive = scene.meshes.at(0).primitives.at(0);
+    const scene::Material& material = scene.materials.at(primitive.material);
+    EXPECT_EQ(primitive.uv1.at(0).x, 2);
+    EXPECT_EQ(material.occlusion_texture.texcoord, 1U);
+    EXPECT_EQ(material.emissive_texture.texture, scene::kNone);
+    EXPECT_NE(material.base_color_texture.texture, scene::kNone);
+}
+
+TEST(Materials, PrimitivesOfOneMaterial_ReadItsSetsFromTheirOwnPlaces) {
+    SceneFile file = withManyTexcoords(R"({"emissiveTexture": {"index": 0, "texCoord": 2}})");
+    auto other = file.primitive();
+    other["attributes"].erase("TEXCOORD_2");
+    file.json["meshes"][0]["primitives"].push_back(other);
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_THAT(test::warningLines(scene), ElementsAre(HasSubstr("for 1 textures")));
+    const auto& primitives = scene.meshes.at(0).primitives;
+    EXPECT_NE(scene.materials.at(primitives.at(0).material).emissive_texture.texture, scene::kNone);
+    EXPECT_EQ(scene.materials.at(primitives.at(1).material).emissive_texture.texture, scene::kNone);
 }
 
 TEST(Materials, Sampler_IsRead) {
