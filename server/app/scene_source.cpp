@@ -4,6 +4,7 @@
 #include "builtin_scene/hall.h"
 #include "core/text.h"
 #include "gltf/gltf_loader.h"
+#include "light/arriving_light.h"
 #include "motion/posed_scene.h"
 #include "scene/first_look.h"
 #include "scene/motion.h"
@@ -111,7 +112,7 @@ settings::ViewSettings firstLook(const std::string& source,
                                  bool software) {
     settings::ViewSettings first = settings;
     if (!isBuiltin(source)) {
-        scene::lookFor(scene, first);
+        scene::lookFor(scene, light::arrivingLight(scene), first);
     }
     if (look != nullptr) {
         look->apply(first, software);

@@ -45,7 +45,7 @@ constexpr std::array kHeadings{
     Heading{"seed", "Lights"},
     Heading{"animate", "Lights"},
     Heading{"ambient", "Lights"},
-    Heading{"scene_lights", "Lights"},
+    Heading{"scene_light", "Lights"},
     Heading{"animation", "Animation"},
     Heading{"environment", "Environment and background"},
     Heading{"background", "Environment and background"},

@@ -132,7 +132,7 @@ LightRig::pick(const settings::ViewSettings& settings, double time_s, const glm:
     }
     for (uint32_t i = 0; lights.scene_lights && i < scene_lights_.size(); ++i) {
         if (scene_lights_[i].type != scene::LightType::kDirectional) {
-            offer({Of::kScene, i}, scene_lights_[i]);
+            offer({Of::kScene, i}, sceneLight(lights, i));
         }
     }
     return found;

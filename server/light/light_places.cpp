@@ -10,14 +10,13 @@
 namespace froxel::light {
 namespace {
 
-constexpr double kFacesDown = -0.25; // the normal's y, below
-
 struct Triangle {
     glm::dvec3 corner;
     glm::dvec3 side_a;
     glm::dvec3 side_b;
     glm::dvec3 normal;
     double area;
+    bool two_sided;
 };
 
 // Calls visit(const scene::Instance&, const scene::Primitive&).
@@ -32,11 +31,28 @@ void eachPrimitive(const scene::Scene& scene, const Visit& visit) {
     }
 }
 
-// Calls visit(const Triangle&) for those that may carry a light, of each `stride`-th.
+// What is meant: by its material and its triangles' normals.
+struct Wanted {
+    bool unlit;
+    double least_up; // the normal's y
+};
+constexpr Wanted kCarriers{true, -0.25}; // ceilings over lamps have none
+constexpr Wanted kLit{false, -1};
+
+// Calls visit(const Triangle&) for each `stride`-th, if it is wanted.
 template <class Visit>
-void eachTriangle(const scene::Scene& scene, uint64_t stride, const Visit& visit) {
+void eachTriangle(const scene::Scene& scene,
+                  const Wanted& wanted,
+                  uint64_t stride,
+                  const Visit& visit) {
     uint64_t at = 0;
     eachPrimitive(scene, [&](const auto& instance, const scene::Primitive& primitive) {
+        const bool has_material = primitive.material < scene.materials.size();
+        const bool unlit = has_material && scene.materials[primitive.material].unlit;
+        const bool two_sided = has_material && scene.materials[primitive.material].double_sided;
+        if (unlit && !wanted.unlit) {
+            return;
+        }
         const glm::dmat4& placed = instance.world_from_object;
         const double side = glm::determinant(glm::dmat3(placed)) < 0 ? -1 : 1;
         const auto corner = [&](size_t i) { // not finite where the index leads nowhere
@@ -55,8 +71,8 @@ void eachTriangle(const scene::Scene& scene, uint64_t stride, const Visit& visit
             const glm::dvec3 b = corner(i + 2) - first;
             const glm::dvec3 cross = side * glm::cross(a, b);
             const double twice = glm::length(cross);
-            if (twice > 0 && std::isfinite(twice) && cross.y >= kFacesDown * twice) {
-                visit(Triangle{first, a, b, cross / twice, twice / 2});
+            if (twice > 0 && std::isfinite(twice) && cross.y >= wanted.least_up * twice) {
+                visit(Triangle{first, a, b, cross / twice, twice / 2, two_sided});
             }
         }
     });
@@ -79,12 +95,10 @@ glm::dvec3 pointOf(const Triangle& triangle, double u, double v) {
     return triangle.corner + u * triangle.side_a + v * triangle.side_b;
 }
 
-} // namespace
-
-std::vector<LightPlace> lightPlaces(const scene::Scene& scene) {
+std::vector<LightPlace> placesOn(const scene::Scene& scene, const Wanted& wanted) {
     const uint64_t stride = 1 + triangleCount(scene) / kMostTriangles;
     double total = 0;
-    eachTriangle(scene, stride, [&](const Triangle& triangle) { total += triangle.area; });
+    eachTriangle(scene, wanted, stride, [&](const Triangle& triangle) { total += triangle.area; });
     std::vector<LightPlace> places;
     if (!(total > 0) || !std::isfinite(total)) {
         return places;
@@ -94,17 +108,28 @@ std::vector<LightPlace> lightPlaces(const scene::Scene& scene) {
     const double part = total / kLightPlaces;
     const auto numbersOf = [](size_t place) { return Fractions(mix(place + 1)).values; };
     double passed = 0;
-    eachTriangle(scene, stride, [&](const Triangle& triangle) {
+    eachTriangle(scene, wanted, stride, [&](const Triangle& triangle) {
         passed += triangle.area;
         while (places.size() < kLightPlaces) {
             const auto numbers = numbersOf(places.size());
             if ((static_cast<double>(places.size()) + numbers[0]) * part >= passed) {
                 return;
             }
-            places.push_back({pointOf(triangle, numbers[1], numbers[2]), triangle.normal});
+            places.push_back(
+                {pointOf(triangle, numbers[1], numbers[2]), triangle.normal, triangle.two_sided});
         }
     });
     return places;
+}
+
+} // namespace
+
+std::vector<LightPlace> lightPlaces(const scene::Scene& scene) {
+    return placesOn(scene, kCarriers);
+}
+
+std::vector<LightPlace> litPlaces(const scene::Scene& scene) {
+    return placesOn(scene, kLit);
 }
 
 } // namespace froxel::light

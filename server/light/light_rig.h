@@ -9,7 +9,9 @@
 #include "settings/camera.h"
 #include "settings/settings.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -100,7 +102,7 @@ class LightRig {
                 visit(asPunctual(*next->second));
                 ++next;
             } else {
-                visit(scene_lights_[i]);
+                visit(sceneLight(settings, i));
             }
         }
         for (const settings::PlacedLight& light : settings.placed.lights()) {
@@ -126,7 +128,17 @@ class LightRig {
   private:
     using Places = std::shared_ptr<const std::vector<LightPlace>>;
     [[nodiscard]] Places placesIn(const BoundsD3& box_world) const;
-    // The same of a scene light.
+    // As bright as the settings have it; `index` is of scene_lights_.
+    [[nodiscard]] scene::PunctualLight sceneLight(const settings::Lights& settings,
+                                                  uint32_t index) const {
+        scene::PunctualLight light = scene_lights_[index];
+        const double intensity = static_cast<double>(light.intensity) *
+                                 static_cast<double>(settings.scene_light_intensity);
+        constexpr auto kMost = static_cast<double>(std::numeric_limits<float>::max());
+        light.intensity = static_cast<float>(std::min(intensity, kMost));
+        return light;
+    }
+    // Whether it takes the place of a scene light that is there.
     [[nodiscard]] bool standsForScene(const settings::Lights& settings,
                                       const settings::PlacedLight& placed) const;
     // For scene lights, by their index; alive as long as the settings.

@@ -37,6 +37,9 @@ bool isShowcase(const Scene& scene) {
 
 // Of the studio beside other lights. In a room, which it would light through the walls, less.
 constexpr float kFill = 0.3F;
+// What a white surface sends, of white, of the light of the file's own that arrives in the mean:
+// with the studio's fill it is near white.
+constexpr double kOfWhite = 0.7;
 constexpr float kFillOfRooms = 0.25F;
 
 // Dark and white things stand out from it, coloured ones keep their colours.
@@ -82,7 +85,7 @@ settings::PlacedLights lampsOf(const BoundsD3& room) {
 
 } // namespace
 
-void lookFor(const Scene& scene, settings::ViewSettings& settings) {
+void lookFor(const Scene& scene, double arriving_lux, settings::ViewSettings& settings) {
     const auto surround = surroundOf(scene);
     const BoundsD3& bounds = surround ? surround->rest_world : scene.bounds_world;
     const double half_m = 0.5 * glm::length(bounds.size());
@@ -104,10 +107,11 @@ void lookFor(const Scene& scene, settings::ViewSettings& settings) {
     if (!settings.environment.present()) {
         return;
     }
-    if (!scene.lights.empty()) {
-        settings.exposure_mode = settings::ExposureMode::kFrame;
+    if (arriving_lux > 0) {
+        lights.scene_light_intensity = static_cast<float>(within(
+            settings::kSceneLightIntensityRange, glm::pi<double>() * kOfWhite / arriving_lux));
         settings.environment.strength = kFill;
-    } else if (isRoom(scene)) {
+    } else if (scene.lights.empty() && isRoom(scene)) {
         settings.environment.strength = kFillOfRooms;
         lights.placed =
             lights.placed.lights().empty() ? lampsOf(scene.bounds_world) : lights.placed;

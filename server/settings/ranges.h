@@ -21,6 +21,7 @@ inline constexpr Range<uint32_t> kHeightRange{"height", 16, 4096};
 inline constexpr Range<uint32_t> kLightCountRange{"lights", 0, 1'000'000};
 inline constexpr Range<double> kLightRadiusRange{"light_radius", 0.001, 10'000.0};
 inline constexpr Range<double> kLightIntensityRange{"light_intensity", 0.0, 1e9};
+inline constexpr Range<double> kSceneLightIntensityRange{"scene_light_intensity", 0.0, 1e9};
 inline constexpr Range<uint32_t> kGridXRange{"grid.x", 1, 128};
 inline constexpr Range<uint32_t> kGridYRange{"grid.y", 1, 128};
 inline constexpr Range<uint32_t> kGridZRange{"grid.z", 1, 256};

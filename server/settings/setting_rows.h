@@ -138,6 +138,11 @@ inline constexpr std::array kSettingRows = {
                                                       {"Lights of the file",
                                                        "Uses the lights that the scene's file has",
                                                        "", "each light: what its radius reaches"}),
+    row<&ViewSettings::lights, &Lights::scene_light_intensity>(
+        kSceneLightIntensityRange,
+        "lights.scene_light_intensity",
+        {"File light brightness",
+         "Factor on the brightness of every light that the scene's file has"}),
 
     row<&ViewSettings::animation, &Animation::playing>(
         Switch{"animation_playing"},

@@ -171,12 +171,13 @@ struct Lights {
     uint32_t seed = 1;
     LightPlaces places = LightPlaces::kVolume;
     LightPalette palette = LightPalette::kRainbow;
-    bool animate = true;         // off: time stands still
-    float speed = 1.0F;          // scales the animation's clock
-    std::optional<BoundsD3> box; // none: the scene's bounds
-    float ambient = 1.0F;        // scales the ambient term
-    bool scene_lights = true;    // the scene's own punctual lights
-    PlacedLights placed;         // those that viewers placed
+    bool animate = true;                // off: time stands still
+    float speed = 1.0F;                 // scales the animation's clock
+    std::optional<BoundsD3> box;        // none: the scene's bounds
+    float ambient = 1.0F;               // scales the ambient term
+    bool scene_lights = true;           // the scene's own punctual lights
+    float scene_light_intensity = 1.0F; // scales each of them: files count light in any unit
+    PlacedLights placed;                // those that viewers placed
     bool operator==(const Lights&) const = default;
 };
 

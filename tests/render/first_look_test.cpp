@@ -1,5 +1,6 @@
 // What a stranger's file shows before anybody has set anything.
 #include "gltf/gltf_loader.h"
+#include "light/arriving_light.h"
 #include "scene/enclosing_sphere.h"
 #include "scene/first_look.h"
 #include "scene/first_view.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <tuple>
 
 namespace froxel::test {
 namespace {
@@ -22,7 +24,7 @@ constexpr settings::Size kSize{160, 90};
 
 Picture drawAsFirstSeen(gpu::Device& device, const scene::Scene& scene) {
     render::FrameInputs inputs;
-    scene::lookFor(scene, inputs.settings);
+    scene::lookFor(scene, light::arrivingLight(scene), inputs.settings);
     inputs.settings.size = kSize;
     inputs.settings.camera =
         scene::firstViewOf(scene, scene::enclosingSphere(scene)).cameraFor(kSize);
@@ -82,6 +84,31 @@ TEST_F(FirstLook, GreyCubes_AreToldApartOnEveryFace) {
             EXPECT_NEAR(value, shown[face], 2) << face;
             EXPECT_GE(value, darker[face] + 12) << face;
             darker[face] = value;
+        }
+    }
+}
+
+// Whatever its light counts as: what is black is shown black, and what is white white.
+TEST_F(FirstLook, UnderALightOfItsOwn_ACubeIsAsDarkAsItIs) {
+    for (const auto& [albedo, least, most] :
+         {std::tuple(0.03F, 10, 60), {0.18F, 85, 125}, {0.8F, 180, 230}}) {
+        std::array<int, 3> shown{};
+        for (const float lux : {0.001F, 3.0F, 1e5F}) {
+            SCOPED_TRACE(lux);
+            scene::Scene cube = greyCube(albedo);
+            scene::PunctualLight sun;
+            sun.type = scene::LightType::kDirectional;
+            sun.intensity = lux;
+            sun.direction_world = glm::normalize(glm::dvec3(-1, -1.2, -1.5));
+            cube.lights.push_back(sun);
+            const Picture picture = drawAsFirstSeen(device(), cube);
+            const std::array at = {green(picture, pixelOf(cube, {0, 1, 0})),
+                                   green(picture, pixelOf(cube, {0, 0, 1})),
+                                   green(picture, pixelOf(cube, {1, 0, 0}))};
+            EXPECT_GE(at[1], least) << albedo;
+            EXPECT_LE(at[1], most) << albedo;
+            shown = lux == 0.001F ? at : shown;
+            EXPECT_EQ(at, shown) << albedo << ": the unit changes nothing";
         }
     }
 }
@@ -146,7 +173,7 @@ TEST_F(FirstLookOfFiles, UnlitQuad_Is124BesideAnyLight) {
         }
         EXPECT_EQ(green(picture, {64, 45}), 124);
         EXPECT_EQ(green(picture, {2, 45}), 63) << "the background";
-        EXPECT_NEAR(green(picture, {100, 45}), 107, 25) << "what is lit is near middle grey";
+        EXPECT_NEAR(green(picture, {100, 45}), 175, 5) << "what is lit is as light as it is";
     }
 }
 

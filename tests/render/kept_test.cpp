@@ -153,7 +153,8 @@ bool leavesThePicture(std::string_view setting) {
         "lighting", "light_loop", "grid_law", "count_pairs", // other ways to the same
         "debug_scale_max",                                   // of a view that is off
         "animate", "light_speed",                            // are in the lights' clock already
-        "scene_lights", "animation_playing", "animation_speed", "animation_repeat",
+        "scene_lights", "scene_light_intensity", "animation_playing", "animation_speed",
+        "animation_repeat",
         "animation_fade",                          // the room has none
         "ambient",                                 // gives way to what is around
         "background_color", "background_gradient", // are behind that

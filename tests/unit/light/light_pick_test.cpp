@@ -137,6 +137,18 @@ TEST(LightPick, WhatIsReplaced_AndNotThere_LeavesOneMore) {
     EXPECT_EQ(lightsOf(rig, settings).lights.size(), 6U + 1);
 }
 
+TEST(LightPick, ALightOfTheFile_IsPlacedAsBrightAsItIsShown) {
+    scene::Scene scene = roomWithTwoLights();
+    scene.lights[2].range_m = 2;
+    const LightRig rig(scene);
+    settings::ViewSettings settings = looking(0);
+    settings.lights.scene_light_intensity = 0.5F;
+    const FrameLights lights = lightsOf(rig, settings);
+    const auto picked =
+        rig.pick(settings, kTime_s, pictureOf(settings, lights.lights[1].position_view)).value();
+    EXPECT_EQ(picked.intensity, scene.lights[2].intensity * 0.5F);
+}
+
 // The nearest has no range; the one beside it can be placed. A sun has no place to stand in.
 TEST(LightPick, WhatCanBePlaced_IsPreferred_AndSunsStay) {
     scene::Scene scene = roomWithTwoLights();

@@ -150,6 +150,27 @@ TEST(LightRig, SceneLightsOff_LeavesThemOut) {
     EXPECT_TRUE(lights.directionals.empty());
 }
 
+TEST(LightRig, SceneLightIntensity_ScalesTheFilesLightsAlone) {
+    scene::Scene scene;
+    scene.lights = {punctual(scene::LightType::kPoint), punctual(scene::LightType::kDirectional)};
+    settings::Lights settings = noSeeded();
+    settings::PlacedLight placed;
+    placed.id = 1;
+    settings.placed = settings::PlacedLights({placed});
+    const FrameLights usual = evaluated(scene, settings);
+    settings.scene_light_intensity = 0.25F;
+    const FrameLights dimmed = evaluated(scene, settings);
+    ASSERT_EQ(dimmed.lights.size(), 2U);
+    EXPECT_EQ(dimmed.lights[0].color, usual.lights[0].color * 0.25F);
+    EXPECT_EQ(dimmed.directionals[0].color, usual.directionals[0].color * 0.25F);
+    EXPECT_EQ(dimmed.lights[1].color, usual.lights[1].color) << "placed";
+    scene.lights[0].intensity = 3e38F;
+    scene.lights[0].color = {1, 0, 0};
+    settings.scene_light_intensity = 1e9F;
+    EXPECT_EQ(evaluated(scene, settings).lights[0].color,
+              glm::vec3(std::numeric_limits<float>::max(), 0, 0));
+}
+
 TEST(LightRig, Range_SetsTheRadius) {
     scene::Scene scene;
     scene.lights = {punctual(scene::LightType::kPoint), punctual(scene::LightType::kPoint)};

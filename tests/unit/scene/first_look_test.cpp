@@ -68,23 +68,23 @@ TEST(IsRoom, AFlatOrBrokenPlace_HasNoInside) {
 TEST(LookFor, AThingWithoutLights_StandsInTheStudio) {
     settings::ViewSettings settings;
     Scene thing = makeBox({0, 0, 0}, 1);
-    lookFor(thing, settings);
+    lookFor(thing, 0, settings);
     EXPECT_EQ(settings.lights.count, 0U);
     EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kStudio);
     EXPECT_EQ(settings.exposure_mode, settings::ExposureMode::kFixed);
     thing.materials[0].unlit = true;
-    lookFor(thing, settings);
+    lookFor(thing, 0, settings);
     EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kOff);
 }
 
 TEST(LookFor, Things_WithOrWithoutMaterialsAndLight_StandBeforeTheSameBackground) {
     settings::ViewSettings usual;
-    lookFor(makeBox({0, 0, 0}, 1), usual);
+    lookFor(makeBox({0, 0, 0}, 1), 0, usual);
     Scene unlit = makeBox({0, 0, 0}, 1);
     unlit.materials[0].unlit = true;
     for (const Scene& scene : {unlit, Scene()}) {
         settings::ViewSettings settings;
-        lookFor(scene, settings);
+        lookFor(scene, 0, settings);
         EXPECT_EQ(settings.background, usual.background);
     }
 }
@@ -93,7 +93,7 @@ TEST(LookFor, Things_WithOrWithoutMaterialsAndLight_StandBeforeTheSameBackground
 TEST(LookFor, ARoom_HasAFewWhiteLampsUnderItsCeiling) {
     settings::ViewSettings settings;
     const Scene room = makeRoom({1, 2, 3}, 10);
-    lookFor(room, settings);
+    lookFor(room, 0, settings);
     EXPECT_EQ(settings.lights.count, 0U);
     EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kStudio);
     ASSERT_EQ(settings.lights.placed.lights().size(), 1U);
@@ -102,7 +102,7 @@ TEST(LookFor, ARoom_HasAFewWhiteLampsUnderItsCeiling) {
     EXPECT_EQ(lamp.color, glm::vec3(1));
     EXPECT_GT(lamp.radius_m, 17);
     settings.lights.placed = settings::PlacedLights({lamp, {.id = 7}});
-    lookFor(room, settings);
+    lookFor(room, 0, settings);
     EXPECT_EQ(settings.lights.placed.lights().size(), 2U) << "somebody placed others";
 }
 
@@ -115,7 +115,7 @@ TEST(LookFor, TheMiddleOfARoomsFloor_IsAsBrightWhateverTheNumberOfLamps) {
         room.bounds_world = {};
         room.bounds_world.add(glm::dvec3(-side_m / 2, -3, -side_m / 2));
         room.bounds_world.add(glm::dvec3(side_m / 2, 3, side_m / 2));
-        lookFor(room, settings);
+        lookFor(room, 0, settings);
         double light = 0; // below the lamp nearest to the middle
         const auto lamps = settings.lights.placed.lights();
         ASSERT_EQ(lamps.size(), static_cast<size_t>(side_m * side_m / 36));
@@ -145,40 +145,57 @@ TEST(LookFor, AHall_HasLampsAlongIt) {
     hall.bounds_world = {};
     hall.bounds_world.add(glm::dvec3(-15, -3, -3));
     hall.bounds_world.add(glm::dvec3(15, 3, 3));
-    lookFor(hall, settings);
+    lookFor(hall, 0, settings);
     const auto lamps = settings.lights.placed.lights();
     ASSERT_EQ(lamps.size(), 3U);
     EXPECT_LT(glm::distance(lamps[0].position_world, glm::dvec3(-10, 0.72, 0)), 1e-9);
     EXPECT_LT(glm::distance(lamps[2].position_world, glm::dvec3(10, 0.72, 0)), 1e-9);
 }
 
-TEST(LookFor, AScenesOwnLights_AreMeteredBesideADimmerStudio) {
-    settings::ViewSettings settings;
+TEST(LookFor, AScenesOwnLights_AreBroughtToTheUnitsOfADimmerStudio) {
     Scene room = makeRoom({0, 0, 0}, 10);
     room.lights.resize(1);
-    lookFor(room, settings);
-    EXPECT_EQ(settings.lights.count, 0U);
-    EXPECT_TRUE(settings.lights.placed.lights().empty());
-    EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kStudio);
-    EXPECT_LT(settings.environment.strength, 0.5F);
-    EXPECT_EQ(settings.exposure_mode, settings::ExposureMode::kFrame);
+    for (const double arriving_lux : {1e-4, 1.0, 1e5}) {
+        settings::ViewSettings settings;
+        lookFor(room, arriving_lux, settings);
+        EXPECT_EQ(settings.lights.count, 0U);
+        EXPECT_TRUE(settings.lights.placed.lights().empty());
+        EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kStudio);
+        EXPECT_LT(settings.environment.strength, 0.5F);
+        EXPECT_EQ(settings.exposure_mode, settings::ExposureMode::kFixed);
+        EXPECT_EQ(settings.exposure, 1);
+        const auto factor = static_cast<double>(settings.lights.scene_light_intensity);
+        EXPECT_NEAR(factor * arriving_lux / glm::pi<double>(), 0.7, 1e-6) << "of white";
+    }
+}
+
+TEST(LookFor, LightsThatReachNothing_LeaveTheStudioAsItIs) {
+    settings::ViewSettings usual;
+    Scene thing = makeBox({0, 0, 0}, 1);
+    lookFor(thing, 0, usual);
+    settings::ViewSettings settings;
+    thing.lights.resize(1);
+    lookFor(thing, 0, settings);
+    EXPECT_EQ(settings, usual);
+    lookFor(thing, 1e-30, settings);
+    EXPECT_EQ(settings.lights.scene_light_intensity, 1e9F) << "the most that a setting may be";
 }
 
 TEST(LookFor, Sponza_KeepsItsThousandLights) {
     settings::ViewSettings settings;
     Scene sponza = makeRoom({0, 0, 0}, 10); // half diagonal 17.3 m
     sponza.name = "Sponza";
-    lookFor(sponza, settings);
+    lookFor(sponza, 0, settings);
     EXPECT_EQ(settings, settings::ViewSettings());
 }
 
 // The irradiance at a share of the reach is the same whatever the scene's size.
 TEST(LookFor, SeededLights_GrowWithTheScene) {
     settings::ViewSettings usual;
-    lookFor(makeRoom({0, 0, 0}, 10), usual);
+    lookFor(makeRoom({0, 0, 0}, 10), 0, usual);
     for (const double k : {0.01, 0.1, 10.0, 100.0}) {
         settings::ViewSettings settings;
-        lookFor(makeRoom({0, 0, 0}, 10 * k), settings);
+        lookFor(makeRoom({0, 0, 0}, 10 * k), 0, settings);
         EXPECT_NEAR(settings.lights.radius_m, usual.lights.radius_m * k, 1e-6 * k) << k;
         EXPECT_NEAR(settings.lights.intensity, usual.lights.intensity * k * k, 1e-6 * k * k) << k;
     }
@@ -188,11 +205,11 @@ TEST(LookFor, ReachIsARoundNumber_AndInItsRange) {
     for (const auto& [half, radius] :
          {std::pair(1e-6, 0.001), {0.5, 0.1}, {1.0, 0.2}, {2.0, 0.5}, {1e9, 1e4}}) {
         settings::ViewSettings settings;
-        lookFor(makeBox({0, 0, 0}, half), settings);
+        lookFor(makeBox({0, 0, 0}, half), 0, settings);
         EXPECT_NEAR(settings.lights.radius_m, radius, 1e-6 * radius) << half;
     }
     settings::ViewSettings settings;
-    lookFor(Scene(), settings);
+    lookFor(Scene(), 0, settings);
     EXPECT_EQ(settings.lights.radius_m, settings::Lights().radius_m) << "nothing has no size";
 }
 
