@@ -8,6 +8,7 @@
 #include "reference/lights.h"
 #include "reference/material.h"
 #include "reference/occluders.h"
+#include "reference/tone_map.h"
 #include "reference/toon.h"
 #include "settings/environment.h"
 
@@ -111,19 +112,42 @@ class Shader {
             }
         }
         color = medium_.seenThrough(color, ray, distance);
-        for (const auto& layer : blended_.at(x, y)) {
-            if (layer.point.distance <= distance) {
-                double alpha = 1;
-                const glm::dvec3 over = shadeHit(
-                    {x, y, layer.point}, {layer.instance, layer.primitive, layer.triangle}, &alpha);
-                color =
-                    glm::mix(color, medium_.seenThrough(over, ray, layer.point.distance), alpha);
-            }
-        }
-        return color;
+        return withBlended({color, distance, isUnlit(visible)}, {x, y}, ray);
     }
 
   private:
+    [[nodiscard]] bool isUnlit(const VisibleTriangle& visible) const {
+        return visible.instance != VisibleTriangle::kNothing &&
+               scene_.materials[primitiveOf(scene_, visible.instance, visible.primitive).material]
+                   .unlit;
+    }
+    // The solid picture at a pixel.
+    struct Behind {
+        glm::dvec3 color;
+        double distance;
+        bool unlit; // a colour of the display; so is then what is blended over it
+    };
+    [[nodiscard]] glm::dvec3
+    withBlended(const Behind& behind, const glm::uvec2& at, const Ray& ray) const {
+        glm::dvec3 sum(0);
+        double left = 1;
+        for (const auto& layer : blended_.at(at.x, at.y)) {
+            if (layer.point.distance <= behind.distance) {
+                double alpha = 1;
+                const glm::dvec3 over =
+                    shadeHit({at.x, at.y, layer.point},
+                             {layer.instance, layer.primitive, layer.triangle}, &alpha);
+                sum = glm::mix(sum, medium_.seenThrough(over, ray, layer.point.distance), alpha);
+                left *= 1 - alpha;
+            }
+        }
+        if (!behind.unlit || left == 1) {
+            return sum + left * behind.color;
+        }
+        const glm::dvec3 shown = toneMapped(
+            sum / (1 - left), static_cast<double>(settings_.exposure), settings_.tone_map);
+        return glm::mix(glm::min(shown, glm::dvec3(1)), behind.color, left);
+    }
     // Where nothing is.
     [[nodiscard]] glm::dvec3 behind(const Ray& ray) const {
         const settings::Environment& environment = settings_.environment;

@@ -22,7 +22,8 @@ using froxel::VisibleTriangle;
 // trades error for speed (a G-buffer layout, a lights' cut-off) is left out, so that it is priced.
 // The ray through the pixel's centre meets the plane of the stated triangle in double (kPlaneGoesOn
 // in rays.h says what holds for centres just outside it). Blended triangles are found by ray here
-// and sorted pixel by pixel. Runs on every hardware thread. `scene` is only read.
+// and sorted pixel by pixel; over an unlit surface they are mixed as the display shows them, by the
+// exposure of the settings. Runs on every hardware thread. `scene` is only read.
 //
 // Stated model, besides glTF 2.0 with KHR_lights_punctual, KHR_materials_unlit, _ior, _specular and
 // _clearcoat and KHR_texture_transform: visibility is height-correlated Smith (Heitz 2014);

@@ -42,6 +42,24 @@ void nextRasterPass(const vk::raii::CommandBuffer& cmd) {
             kRasterUses | Access::eShaderSampledRead);
 }
 
+// What was blended apart, over the solid picture; leaves radiance as a colour attachment's writes.
+void recordResolve(const FrameContext& frame) {
+    const auto& size = frame.slot.targets->size;
+    if (!frame.plan.over_unlit) {
+        inParts(frame, size, frame.costs.screen(), recordBlendResolve);
+        return;
+    }
+    const auto& cmd = frame.slot.cmd;
+    // blended sums, solid radiance -> loads and stores of a compute pass
+    barrier(cmd, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+            Stage::eComputeShader,
+            Access::eShaderSampledRead | Access::eShaderStorageRead | Access::eShaderStorageWrite);
+    inParts(frame, size, frame.costs.screen(), recordBlendOverUnlit);
+    // stored radiance -> what takes it for a colour attachment's
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentRead | Access::eColorAttachmentWrite);
+}
+
 void recordPeeled(const FrameContext& frame) {
     const auto& size = frame.slot.targets->size;
     const RegionCost cost = frame.costs.blended();
@@ -62,7 +80,7 @@ void recordPeeled(const FrameContext& frame) {
         });
     }
     if (layers > 0) {
-        inParts(frame, size, frame.costs.screen(), recordBlendResolve);
+        recordResolve(frame);
     }
 }
 
@@ -89,11 +107,14 @@ void recordBlended(const FrameContext& frame) {
     switch (frame.plan.transparency) {
     case settings::Transparency::kSorted:
         inParts(frame, size, frame.costs.blended(), recordTransparent);
+        if (frame.plan.over_unlit) {
+            recordResolve(frame);
+        }
         break;
     case settings::Transparency::kWeighted:
         inParts(frame, size, frame.costs.blended(), recordWeighted);
         nextRasterPass(frame.slot.cmd);
-        inParts(frame, size, frame.costs.screen(), recordBlendResolve);
+        recordResolve(frame);
         break;
     case settings::Transparency::kPeeled:
         recordPeeled(frame);

@@ -107,6 +107,7 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .edges = pose_.dressing()->needs.edges,
             .layers_visible = layersVisible(),
             .transparent_visible = !draws_.transparent.empty(),
+            .unlit_solid = pose_.dressing()->needs.unlit,
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),
             .areas = !lights_.areas.empty(),

@@ -30,7 +30,7 @@ FrameMemory frameMemory(const FrameBuilder& builder,
                       .posed_bytes = builder.posedBytes(),
                       .host_bytes = builder.hostBytes() + asked.beside_bytes,
                       .effects = effects};
-    if (plan.transparent && plan.transparency != settings::Transparency::kSorted) {
+    if (plan.blendsApart()) {
         frame.blend = plan.transparency;
     }
     return frame;

@@ -21,7 +21,7 @@ struct FrameMemory {
     settings::Size drawn;
     settings::Size shown;
     TargetNeeds targets;
-    std::optional<settings::Transparency> blend = {}; // weighted or peeled surfaces are in sight
+    std::optional<settings::Transparency> blend = {}; // BlendTargets that there are
     ReadbackBytes readback;                           // of a slot
     uint64_t upload_bytes = 0;                        // of all slots together
     ListCapacity lists;                               // on the device

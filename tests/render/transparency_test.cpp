@@ -354,4 +354,35 @@ TEST_F(TransparencyTest, UnlitPanes_ThatCoverAll_HaveTheirOwnColours) {
     }
 }
 
+// A black label of 3/4 on a white wall, neither lit: a quarter of the display's white, 137 in sRGB.
+TEST_F(TransparencyTest, AnUnlitLabelOnAnUnlitWall_IsAQuarterOfWhite_WhateverTheExposure) {
+    scene::Material wall = chalk();
+    wall.base_color = glm::vec4(1);
+    wall.unlit = true;
+    SceneMaker maker(wall);
+    maker.add(quad({-20, -20, -6}, {40, 0, 0}, {0, 40, 0}, 1, 0));
+    maker.add(quadOf({-3, {0, 0, 1}, {}}, maker.add(tint({0, 0, 0, 0.75F}))));
+    render::Renderer renderer(device(), maker.scene);
+    for (const auto transparency :
+         {Transparency::kSorted, Transparency::kWeighted, Transparency::kPeeled}) {
+        for (const auto kind : {Renderer::kNaive, Renderer::kClusteredDeferred}) {
+            for (const float exposure : {0.01F, 1.0F, 100.0F, 0.0F}) {
+                auto inputs = inputsFor(transparency);
+                inputs.settings.renderer = kind;
+                inputs.settings.tone_map = settings::ToneMap::kPbrNeutral;
+                if (exposure > 0) {
+                    inputs.settings.exposure = exposure;
+                } else {
+                    inputs.settings.exposure_mode = settings::ExposureMode::kFrame;
+                }
+                const Picture picture = draw(renderer, inputs);
+                const size_t middle = 4 * (size_t{27} * kSize.width_px + 48);
+                EXPECT_EQ(std::to_integer<int>(picture.rgba8[middle]), 137)
+                    << static_cast<int>(transparency) << " " << static_cast<int>(kind) << " "
+                    << exposure;
+            }
+        }
+    }
+}
+
 } // namespace froxel::test

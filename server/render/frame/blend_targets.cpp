@@ -19,7 +19,7 @@ std::vector<BlendImage> blendImages(settings::Transparency transparency,
     std::vector images = {color("blended sums", Pipelines::kRadianceFormat)};
     if (transparency == settings::Transparency::kWeighted) {
         images.push_back(color("blend weights", Pipelines::kBlendWeightFormat));
-    } else {
+    } else if (transparency == settings::Transparency::kPeeled) {
         images.push_back({"peeled layer depth",
                           {.format = Pipelines::kDepthFormat,
                            .extent = {drawn.width_px, drawn.height_px},
@@ -43,7 +43,7 @@ BlendTargets::BlendTargets(const gpu::Device& device,
     sums = std::move(images[0]);
     if (transparency == settings::Transparency::kWeighted) {
         weights = std::move(images[1]);
-    } else {
+    } else if (transparency == settings::Transparency::kPeeled) {
         layer_depth = std::move(images[1]);
         layer_keys = {std::move(images[2]), std::move(images[3])};
     }
@@ -86,7 +86,7 @@ std::shared_ptr<BlendTargets> blendTargetsFor(const FramePlan& plan,
                                               const Pipelines& pipelines,
                                               std::shared_ptr<const ViewTargets> view,
                                               std::shared_ptr<BlendTargets> kept) {
-    if (!plan.transparent || plan.transparency == settings::Transparency::kSorted) {
+    if (!plan.blendsApart()) {
         return nullptr;
     }
     if (kept && kept->fits(plan.transparency, *view)) {

@@ -1,5 +1,5 @@
-// What weighted or peeled surfaces are drawn into before they come over the picture; exists for
-// views that have them in sight.
+// What blended surfaces are drawn into before they come over the picture, where they are not drawn
+// into it at once (FramePlan::blendsApart()).
 #pragma once
 
 #include "gpu/device.h"
@@ -13,7 +13,7 @@
 
 namespace froxel::render {
 
-// What weighted or peeled surfaces are drawn into, in the order of BlendTargets' members.
+// In the order of BlendTargets' members.
 struct BlendImage {
     const char* name;
     gpu::ImageInfo info;

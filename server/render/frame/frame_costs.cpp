@@ -214,6 +214,9 @@ void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
         const bool peeled = load_.plan.transparency == settings::Transparency::kPeeled;
         const double layers = peeled ? load_.peel_layers : 1;
         passes.push_back({peeled ? "peel" : "transparent", layers * timeOver(blended(), drawn)});
+        if (load_.plan.over_unlit) {
+            passes.push_back({"blend_over_unlit", timeOver(screen(), drawn)});
+        }
     }
 }
 

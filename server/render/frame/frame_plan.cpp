@@ -94,6 +94,7 @@ void replacePicture(FramePlan& plan,
     plan.toon_pass = plan.transparent = false;
     plan.transparency = settings::Transparency::kSorted;
     plan.peel_layers = 0;
+    plan.over_unlit = false;
     plan.outline = plan.samples = false; // nothing is done to what it shows
     std::erase_if(plan.effects,
                   [](const auto& it) { return it.row->place != EffectPlace::kLights; });
@@ -192,6 +193,7 @@ FramePlan planPasses(const settings::ViewSettings& settings, const FrameFacts& f
     plan.transparent = facts.transparent_visible;
     if (plan.transparent) {
         plan.transparency = settings.transparency;
+        plan.over_unlit = facts.unlit_solid;
         plan.peel_layers =
             settings.transparency == settings::Transparency::kPeeled ? settings.peel_layers : 0;
     }

@@ -19,6 +19,7 @@ struct FrameFacts {
     bool edges = false;               // SceneNeeds::edges
     bool layers_visible = false;      // solid surfaces with layers are drawn by the rasteriser
     bool transparent_visible = false; // blended surfaces are in view
+    bool unlit_solid = false;         // SceneNeeds::unlit
     bool local_lights = false;        // any light that has a place
     bool spots = false;
     bool areas = false;       // some of the spots are rectangles
@@ -79,6 +80,7 @@ struct FramePlan {
     bool transparent = false;
     settings::Transparency transparency = settings::Transparency::kSorted; // where transparent
     uint32_t peel_layers = 0; // at most; 0: nothing is peeled
+    bool over_unlit = false;  // what is blended may be before what has colours of the display
     bool samples = false;     // four a pixel: everything is drawn at twice the sides
     bool tonemap = false;     // a pass of its own
     bool lists = false;       // lights are assigned to clusters
@@ -105,6 +107,10 @@ struct FramePlan {
 
     // Whether it has any there.
     [[nodiscard]] bool hasEffect(EffectPlace place) const;
+    // Whether what is blended is drawn into targets of its own.
+    [[nodiscard]] bool blendsApart() const {
+        return transparent && (over_unlit || transparency != settings::Transparency::kSorted);
+    }
 };
 
 // Whether surfaces are shaded as they are drawn, without a G-buffer.

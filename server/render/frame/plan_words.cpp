@@ -181,16 +181,20 @@ std::string transparentWords(const FramePlan& plan) {
     if (!plan.transparent) {
         return "no transparent surface in view: no sort, no blend pass";
     }
+    const std::string over =
+        plan.over_unlit ? "; over unlit surfaces as the display shows them, in a pass of its own"
+                        : "";
     switch (plan.transparency) {
     case settings::Transparency::kWeighted:
-        return "transparent surfaces in view: summed at once by weights of distance, approximate";
+        return "transparent surfaces in view: summed at once by weights of distance, approximate" +
+               over;
     case settings::Transparency::kPeeled:
         return "transparent surfaces in view: up to " + std::to_string(plan.peel_layers) +
-               " layers peeled from the eye, each pixel's next one shaded alone";
+               " layers peeled from the eye, each pixel's next one shaded alone" + over;
     case settings::Transparency::kSorted:
         break;
     }
-    return "transparent surfaces in view: sorted and blended";
+    return "transparent surfaces in view: sorted and blended" + over;
 }
 
 std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {

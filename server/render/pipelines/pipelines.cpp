@@ -18,52 +18,41 @@ using Stage = vk::ShaderStageFlagBits;
 using Type = vk::DescriptorType;
 
 constexpr std::array<std::string_view, 11> kGeometryNames = {
-    "depth prepass",
-    "gbuffer",
-    "gbuffer after depth",
-    "forward",
-    "forward after depth",
-    "transparent",
-    "weighted",
-    "peel select",
-    "peel shade",
-    "peel count",
+    "depth prepass", "gbuffer",  "gbuffer after depth", "forward",    "forward after depth",
+    "transparent",   "weighted", "peel select",         "peel shade", "peel count",
     "overdraw"};
 constexpr std::string_view kBlendResolveName = "blend resolve";
-constexpr std::array<std::string_view, 4> kScreenNames = {"lighting", "toon",
-                                                          "outline", "tonemap"};
+constexpr std::string_view kBlendOverUnlitName = "blend over unlit";
+constexpr std::array<std::string_view, 4> kScreenNames = {"lighting", "toon", "outline", "tonemap"};
 constexpr std::string_view kFragmentLightingName = "lighting (fragment)";
 
-constexpr vk::ShaderStageFlags kAllStages =
-    Stage::eVertex | Stage::eFragment | Stage::eCompute;
+constexpr vk::ShaderStageFlags kAllStages = Stage::eVertex | Stage::eFragment | Stage::eCompute;
 
-vk::raii::DescriptorSetLayout frameSetLayout(const gpu::Device &device) {
-  std::array<vk::DescriptorSetLayoutBinding, io::kFrameBindingCount> bindings;
-  for (uint32_t i = 0; i < bindings.size(); ++i) {
-    bindings[i] = {.binding = i,
-                   .descriptorType = kFrameBindings[i].type,
-                   .descriptorCount = 1,
-                   .stageFlags = kAllStages};
-  }
-  return gpu::makeSetLayout(device, bindings);
+vk::raii::DescriptorSetLayout frameSetLayout(const gpu::Device& device) {
+    std::array<vk::DescriptorSetLayoutBinding, io::kFrameBindingCount> bindings;
+    for (uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i] = {.binding = i,
+                       .descriptorType = kFrameBindings[i].type,
+                       .descriptorCount = 1,
+                       .stageFlags = kAllStages};
+    }
+    return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::DescriptorSetLayout materialSetLayout(const gpu::Device &device) {
-  // Uniforms, textures.
-  std::vector<vk::DescriptorSetLayoutBinding> bindings(
-      1 + materialSlots(device.traits()));
-  for (uint32_t i = 0; i < bindings.size(); ++i) {
-    bindings[i] = {.binding = i,
-                   .descriptorType = i == 0 ? Type::eUniformBuffer
-                                            : Type::eCombinedImageSampler,
-                   .descriptorCount = 1,
-                   .stageFlags = Stage::eFragment | Stage::eCompute};
-  }
-  return gpu::makeSetLayout(device, bindings);
+vk::raii::DescriptorSetLayout materialSetLayout(const gpu::Device& device) {
+    // Uniforms, textures.
+    std::vector<vk::DescriptorSetLayoutBinding> bindings(1 + materialSlots(device.traits()));
+    for (uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i] = {.binding = i,
+                       .descriptorType =
+                           i == 0 ? Type::eUniformBuffer : Type::eCombinedImageSampler,
+                       .descriptorCount = 1,
+                       .stageFlags = Stage::eFragment | Stage::eCompute};
+    }
+    return gpu::makeSetLayout(device, bindings);
 }
 
-constexpr vk::ShaderStageFlags kScreenStages =
-    Stage::eFragment | Stage::eCompute;
+constexpr vk::ShaderStageFlags kScreenStages = Stage::eFragment | Stage::eCompute;
 constexpr std::array kScreenBindings = {
     vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1, kScreenStages},
     vk::DescriptorSetLayoutBinding{1, Type::eSampledImage, 1, kScreenStages},
@@ -72,281 +61,260 @@ constexpr std::array kScreenBindings = {
     vk::DescriptorSetLayoutBinding{4, Type::eSampledImage, 1, kScreenStages}};
 
 constexpr bool isTexture(Type type) {
-  return type == Type::eSampledImage || type == Type::eUniformTexelBuffer;
+    return type == Type::eSampledImage || type == Type::eUniformTexelBuffer;
 }
-static_assert(std::ranges::count_if(kFrameBindings,
-                                    [](const auto &b) {
-                                      return isTexture(b.type);
-                                    }) +
-                  std::ranges::count_if(kScreenBindings,
-                                        [](const auto &b) {
-                                          return isTexture(b.descriptorType);
-                                        }) ==
-              kPassTextures);
+static_assert(
+    std::ranges::count_if(kFrameBindings, [](const auto& b) { return isTexture(b.type); }) +
+        std::ranges::count_if(kScreenBindings,
+                              [](const auto& b) { return isTexture(b.descriptorType); }) ==
+    kPassTextures);
 
-vk::raii::DescriptorSetLayout blendSetLayout(const gpu::Device &device) {
-  const std::array bindings = {
-      vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1,
-                                     Stage::eFragment},
-      vk::DescriptorSetLayoutBinding{1, Type::eSampledImage, 1,
-                                     Stage::eFragment}};
-  return gpu::makeSetLayout(device, bindings);
+vk::raii::DescriptorSetLayout blendSetLayout(const gpu::Device& device) {
+    const std::array bindings = {
+        vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1, kScreenStages},
+        vk::DescriptorSetLayoutBinding{1, Type::eSampledImage, 1, kScreenStages}};
+    return gpu::makeSetLayout(device, bindings);
 }
 
-// Streams: 0 positions, 1 surface vertices, 2 extended vertices, 3 instance
-// rows.
-void describeVertices(gpu::GraphicsPipelineInfo &info, bool surface,
-                      bool textured, bool extended) {
-  using Rate = vk::VertexInputRate;
-  using Format = vk::Format;
-  info.bindings = {{0, 12, Rate::eVertex}, {3, 48, Rate::eInstance}};
-  info.attributes = {{0, 0, Format::eR32G32B32Sfloat, 0},
-                     {3, 3, Format::eR32G32B32A32Sfloat, 0},
-                     {4, 3, Format::eR32G32B32A32Sfloat, 16},
-                     {5, 3, Format::eR32G32B32A32Sfloat, 32}};
-  if (surface) {
-    info.bindings.push_back({1, 20, Rate::eVertex});
-    info.attributes.push_back({1, 1, Format::eR32G32B32Sfloat, 0});
-  }
-  if (surface && textured) {
-    info.attributes.push_back({2, 1, Format::eR32G32Sfloat, 12});
-  }
-  if (extended) {
-    info.bindings.push_back({2, 40, Rate::eVertex});
-    info.attributes.push_back({6, 2, Format::eR32G32Sfloat, 0});
-    info.attributes.push_back({7, 2, Format::eR32G32B32A32Sfloat, 8});
-    info.attributes.push_back({8, 2, Format::eR32G32B32A32Sfloat, 24});
-  }
+// Streams: 0 positions, 1 surface vertices, 2 extended vertices, 3 instance rows.
+void describeVertices(gpu::GraphicsPipelineInfo& info, bool surface, bool textured, bool extended) {
+    using Rate = vk::VertexInputRate;
+    using Format = vk::Format;
+    info.bindings = {{0, 12, Rate::eVertex}, {3, 48, Rate::eInstance}};
+    info.attributes = {{0, 0, Format::eR32G32B32Sfloat, 0},
+                       {3, 3, Format::eR32G32B32A32Sfloat, 0},
+                       {4, 3, Format::eR32G32B32A32Sfloat, 16},
+                       {5, 3, Format::eR32G32B32A32Sfloat, 32}};
+    if (surface) {
+        info.bindings.push_back({1, 20, Rate::eVertex});
+        info.attributes.push_back({1, 1, Format::eR32G32B32Sfloat, 0});
+    }
+    if (surface && textured) {
+        info.attributes.push_back({2, 1, Format::eR32G32Sfloat, 12});
+    }
+    if (extended) {
+        info.bindings.push_back({2, 40, Rate::eVertex});
+        info.attributes.push_back({6, 2, Format::eR32G32Sfloat, 0});
+        info.attributes.push_back({7, 2, Format::eR32G32B32A32Sfloat, 8});
+        info.attributes.push_back({8, 2, Format::eR32G32B32A32Sfloat, 24});
+    }
 }
 
-// One of four: with the extended streams or not, lights fetched together or
-// not.
-gpu::Spirv pick(bool extended, bool batched, gpu::Spirv plain,
-                gpu::Spirv with_streams, gpu::Spirv together, gpu::Spirv both) {
-  return batched ? (extended ? both : together)
-                 : (extended ? with_streams : plain);
+// One of four: with the extended streams or not, lights fetched together or not.
+gpu::Spirv pick(bool extended,
+                bool batched,
+                gpu::Spirv plain,
+                gpu::Spirv with_streams,
+                gpu::Spirv together,
+                gpu::Spirv both) {
+    return batched ? (extended ? both : together) : (extended ? with_streams : plain);
 }
 
 gpu::Spirv layeredShader(GeometryPass pass, bool extended, bool batched) {
-  using namespace shaders;
-  switch (pass) {
-  case GeometryPass::kWeighted:
-    return pick(extended, batched, forward_weighted_layered_frag(),
-                forward_weighted_layered_extended_frag(),
-                forward_weighted_layered_batched_frag(),
-                forward_weighted_layered_batched_extended_frag());
-  case GeometryPass::kPeelShade:
-    return pick(extended, batched, forward_peeled_layered_frag(),
-                forward_peeled_layered_extended_frag(),
-                forward_peeled_layered_batched_frag(),
-                forward_peeled_layered_batched_extended_frag());
-  default:
-    return pick(extended, batched, forward_layered_frag(),
-                forward_layered_extended_frag(), forward_layered_batched_frag(),
-                forward_layered_batched_extended_frag());
-  }
+    using namespace shaders;
+    switch (pass) {
+    case GeometryPass::kWeighted:
+        return pick(extended, batched, forward_weighted_layered_frag(),
+                    forward_weighted_layered_extended_frag(),
+                    forward_weighted_layered_batched_frag(),
+                    forward_weighted_layered_batched_extended_frag());
+    case GeometryPass::kPeelShade:
+        return pick(extended, batched, forward_peeled_layered_frag(),
+                    forward_peeled_layered_extended_frag(), forward_peeled_layered_batched_frag(),
+                    forward_peeled_layered_batched_extended_frag());
+    default:
+        return pick(extended, batched, forward_layered_frag(), forward_layered_extended_frag(),
+                    forward_layered_batched_frag(), forward_layered_batched_extended_frag());
+    }
 }
 
 gpu::Spirv forwardShader(GeometryPass pass, bool extended, bool batched) {
-  using namespace shaders;
-  switch (pass) {
-  case GeometryPass::kWeighted:
-    return pick(extended, batched, forward_weighted_frag(),
-                forward_weighted_extended_frag(),
-                forward_weighted_batched_frag(),
-                forward_weighted_batched_extended_frag());
-  case GeometryPass::kPeelShade:
-    return pick(extended, batched, forward_peeled_frag(),
-                forward_peeled_extended_frag(), forward_peeled_batched_frag(),
-                forward_peeled_batched_extended_frag());
-  default:
-    return pick(extended, batched, forward_frag(), forward_extended_frag(),
-                forward_batched_frag(), forward_batched_extended_frag());
-  }
+    using namespace shaders;
+    switch (pass) {
+    case GeometryPass::kWeighted:
+        return pick(extended, batched, forward_weighted_frag(), forward_weighted_extended_frag(),
+                    forward_weighted_batched_frag(), forward_weighted_batched_extended_frag());
+    case GeometryPass::kPeelShade:
+        return pick(extended, batched, forward_peeled_frag(), forward_peeled_extended_frag(),
+                    forward_peeled_batched_frag(), forward_peeled_batched_extended_frag());
+    default:
+        return pick(extended, batched, forward_frag(), forward_extended_frag(),
+                    forward_batched_frag(), forward_batched_extended_frag());
+    }
 }
 
-gpu::Spirv fragmentShader(GeometryPass pass, const VariantKey &key) {
-  using namespace shaders;
-  const bool extended = (key.material_flags & io::kMaterialExtended) != 0;
-  const bool batched = (key.light_flags & io::kLightBatched) != 0;
-  switch (pass) {
-  case GeometryPass::kDepth:
-    return extended ? depth_masked_extended_frag() : depth_masked_frag();
-  case GeometryPass::kOverdraw: // of masked surfaces
-    return extended ? overdraw_masked_extended_frag() : overdraw_masked_frag();
-  case GeometryPass::kGbuffer:
-  case GeometryPass::kGbufferAfterDepth:
-    if (extraFormat(key.output_flags) != vk::Format::eUndefined) {
-      return extended ? gbuffer_extra_extended_frag() : gbuffer_extra_frag();
+gpu::Spirv fragmentShader(GeometryPass pass, const VariantKey& key) {
+    using namespace shaders;
+    const bool extended = (key.material_flags & io::kMaterialExtended) != 0;
+    const bool batched = (key.light_flags & io::kLightBatched) != 0;
+    switch (pass) {
+    case GeometryPass::kDepth:
+        return extended ? depth_masked_extended_frag() : depth_masked_frag();
+    case GeometryPass::kOverdraw: // of masked surfaces
+        return extended ? overdraw_masked_extended_frag() : overdraw_masked_frag();
+    case GeometryPass::kGbuffer:
+    case GeometryPass::kGbufferAfterDepth:
+        if (extraFormat(key.output_flags) != vk::Format::eUndefined) {
+            return extended ? gbuffer_extra_extended_frag() : gbuffer_extra_frag();
+        }
+        return extended ? gbuffer_extended_frag() : gbuffer_frag();
+    default:
+        return (key.material_flags & io::kMaterialLayers) != 0
+                   ? layeredShader(pass, extended, batched)
+                   : forwardShader(pass, extended, batched);
     }
-    return extended ? gbuffer_extended_frag() : gbuffer_frag();
-  default:
-    return (key.material_flags & io::kMaterialLayers) != 0
-               ? layeredShader(pass, extended, batched)
-               : forwardShader(pass, extended, batched);
-  }
 }
 
 // Of a pass whose vertices are positions alone.
 gpu::Spirv depthOnlyShader(GeometryPass pass) {
-  switch (pass) {
-  case GeometryPass::kOverdraw:
-    return shaders::overdraw_frag();
-  case GeometryPass::kPeelSelect:
-    return shaders::peel_select_frag();
-  case GeometryPass::kPeelCount:
-    return shaders::peel_count_frag();
-  default:
-    return {};
-  }
+    switch (pass) {
+    case GeometryPass::kOverdraw:
+        return shaders::overdraw_frag();
+    case GeometryPass::kPeelSelect:
+        return shaders::peel_select_frag();
+    case GeometryPass::kPeelCount:
+        return shaders::peel_count_frag();
+    default:
+        return {};
+    }
 }
 
 std::vector<vk::Format> colorFormats(GeometryPass pass, uint32_t output_flags) {
-  switch (pass) {
-  case GeometryPass::kDepth:
-  case GeometryPass::kPeelCount:
-    return {};
-  case GeometryPass::kGbuffer:
-  case GeometryPass::kGbufferAfterDepth:
-    if (const auto extra = extraFormat(output_flags);
-        extra != vk::Format::eUndefined) {
-      return {Pipelines::gbufferFormat(output_flags), extra};
+    switch (pass) {
+    case GeometryPass::kDepth:
+    case GeometryPass::kPeelCount:
+        return {};
+    case GeometryPass::kGbuffer:
+    case GeometryPass::kGbufferAfterDepth:
+        if (const auto extra = extraFormat(output_flags); extra != vk::Format::eUndefined) {
+            return {Pipelines::gbufferFormat(output_flags), extra};
+        }
+        return {Pipelines::gbufferFormat(output_flags)};
+    case GeometryPass::kWeighted:
+        return {Pipelines::kRadianceFormat, Pipelines::kBlendWeightFormat};
+    case GeometryPass::kPeelSelect:
+        return {Pipelines::kPeelKeyFormat};
+    default:
+        return {Pipelines::kRadianceFormat};
     }
-    return {Pipelines::gbufferFormat(output_flags)};
-  case GeometryPass::kWeighted:
-    return {Pipelines::kRadianceFormat, Pipelines::kBlendWeightFormat};
-  case GeometryPass::kPeelSelect:
-    return {Pipelines::kPeelKeyFormat};
-  default:
-    return {Pipelines::kRadianceFormat};
-  }
 }
 
 // How a pass meets the depth and the colours that are there.
-void describeTests(gpu::GraphicsPipelineInfo &info, GeometryPass pass) {
-  switch (pass) {
-  case GeometryPass::kGbufferAfterDepth:
-  case GeometryPass::kForwardAfterDepth:
-    info.depth_compare = vk::CompareOp::eEqual;
-    info.depth_write = false;
-    break;
-  case GeometryPass::kTransparent:
-    info.depth_write = false;
-    info.blend = gpu::Blend::kOver;
-    break;
-  case GeometryPass::kWeighted:
-    info.depth_write = false;
-    info.blend = gpu::Blend::kWeighted;
-    break;
-  case GeometryPass::kPeelShade:
-    info.depth_compare = vk::CompareOp::eEqual;
-    info.depth_write = false;
-    info.blend = gpu::Blend::kUnder;
-    break;
-  case GeometryPass::kPeelCount:
-    info.depth_compare = vk::CompareOp::eGreater;
-    break;
-  case GeometryPass::kOverdraw:
-    info.blend = gpu::Blend::kAdd;
-    break;
-  default:
-    break;
-  }
+void describeTests(gpu::GraphicsPipelineInfo& info, GeometryPass pass) {
+    switch (pass) {
+    case GeometryPass::kGbufferAfterDepth:
+    case GeometryPass::kForwardAfterDepth:
+        info.depth_compare = vk::CompareOp::eEqual;
+        info.depth_write = false;
+        break;
+    case GeometryPass::kTransparent:
+        info.depth_write = false;
+        info.blend = gpu::Blend::kOver;
+        break;
+    case GeometryPass::kWeighted:
+        info.depth_write = false;
+        info.blend = gpu::Blend::kWeighted;
+        break;
+    case GeometryPass::kPeelShade:
+        info.depth_compare = vk::CompareOp::eEqual;
+        info.depth_write = false;
+        info.blend = gpu::Blend::kUnder;
+        break;
+    case GeometryPass::kPeelCount:
+        info.depth_compare = vk::CompareOp::eGreater;
+        break;
+    case GeometryPass::kOverdraw:
+        info.blend = gpu::Blend::kAdd;
+        break;
+    default:
+        break;
+    }
 }
 
 } // namespace
 
-gpu::SpecConstants specConstants(const VariantKey &key,
-                                 const gpu::DeviceTraits &device) {
-  return {featuresOf(key.material_flags), key.light_flags, key.output_flags,
-          std::max(1U, device.subgroup_size), texturesOf(key.material_flags)};
+gpu::SpecConstants specConstants(const VariantKey& key, const gpu::DeviceTraits& device) {
+    return {featuresOf(key.material_flags), key.light_flags, key.output_flags,
+            std::max(1U, device.subgroup_size), texturesOf(key.material_flags)};
 }
 
-gpu::SpecConstants fragmentConstants(VariantKey key,
-                                     const gpu::DeviceTraits &device) {
-  key.material_flags |= device.is_cpu ? 0U : io::kMaterialGradients;
-  return specConstants(key, device);
+gpu::SpecConstants fragmentConstants(VariantKey key, const gpu::DeviceTraits& device) {
+    key.material_flags |= device.is_cpu ? 0U : io::kMaterialGradients;
+    return specConstants(key, device);
 }
 
-Pipelines::Pipelines(const gpu::Device &device, const gpu::Timeline &timeline,
-                     VariantMaker &maker)
+Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, VariantMaker& maker)
     : device_(device), frame_layout_(frameSetLayout(device)),
       material_layout_(materialSetLayout(device)),
       screen_set_layout_(gpu::makeSetLayout(device, kScreenBindings)),
-      geometry_layout_(
-          gpu::makePipelineLayout(device, {*frame_layout_, *material_layout_})),
-      screen_layout_(gpu::makePipelineLayout(
-          device, {*frame_layout_, *screen_set_layout_})),
+      geometry_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *material_layout_})),
+      screen_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *screen_set_layout_})),
       blend_set_layout_(render::blendSetLayout(device)),
-      peel_layout_(gpu::makePipelineLayout(
-          device, {*frame_layout_, *material_layout_, *blend_set_layout_},
-          sizeof(io::PeelDraw), Stage::eFragment)),
+      peel_layout_(gpu::makePipelineLayout(device,
+                                           {*frame_layout_, *material_layout_, *blend_set_layout_},
+                                           sizeof(io::PeelDraw),
+                                           Stage::eFragment)),
       resolve_layout_(gpu::makePipelineLayout(device, {*blend_set_layout_})),
+      over_unlit_layout_(gpu::makePipelineLayout(
+          device, {*frame_layout_, *screen_set_layout_, *blend_set_layout_})),
       blend_resolve_(timeline, maker, settings::kTransparencyNames.size()),
-      geometry_(timeline, maker, kKeptGeometry),
-      screen_(timeline, maker, kKeptScreen),
+      blend_over_unlit_(timeline, maker, 2 * settings::kToneMapNames.size()),
+      geometry_(timeline, maker, kKeptGeometry), screen_(timeline, maker, kKeptScreen),
       fragment_lighting_(timeline, maker, kKeptScreen) {}
 
-vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass,
-                                           const VariantKey &key) const {
-  const bool masked = (key.material_flags & io::kMaterialMask) != 0;
-  const bool extended = (key.material_flags & io::kMaterialExtended) != 0;
-  const bool surface = !depthOnly(pass) || masked;
-  gpu::GraphicsPipelineInfo info;
-  info.constants = fragmentConstants(key, device_.traits());
-  info.layout = peels(pass) ? *peel_layout_ : *geometry_layout_;
-  info.depth_format = kDepthFormat;
-  const bool textured = extended || fetchesCoordinates(key.material_flags);
-  describeVertices(info, surface, textured, surface && extended);
-  info.vertex = !surface   ? shaders::depth_vert()
-                : extended ? shaders::surface_extended_vert()
-                : textured ? shaders::surface_vert()
-                           : shaders::surface_untextured_vert();
-  info.fragment = surface ? fragmentShader(pass, key) : depthOnlyShader(pass);
-  info.color_formats = colorFormats(pass, key.output_flags);
-  describeTests(info, pass);
-  return gpu::makeGraphicsPipeline(device_, info,
-                                   kGeometryNames[static_cast<size_t>(pass)]);
+vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& key) const {
+    const bool masked = (key.material_flags & io::kMaterialMask) != 0;
+    const bool extended = (key.material_flags & io::kMaterialExtended) != 0;
+    const bool surface = !depthOnly(pass) || masked;
+    gpu::GraphicsPipelineInfo info;
+    info.constants = fragmentConstants(key, device_.traits());
+    info.layout = peels(pass) ? *peel_layout_ : *geometry_layout_;
+    info.depth_format = kDepthFormat;
+    const bool textured = extended || fetchesCoordinates(key.material_flags);
+    describeVertices(info, surface, textured, surface && extended);
+    info.vertex = !surface   ? shaders::depth_vert()
+                  : extended ? shaders::surface_extended_vert()
+                  : textured ? shaders::surface_vert()
+                             : shaders::surface_untextured_vert();
+    info.fragment = surface ? fragmentShader(pass, key) : depthOnlyShader(pass);
+    info.color_formats = colorFormats(pass, key.output_flags);
+    describeTests(info, pass);
+    return gpu::makeGraphicsPipeline(device_, info, kGeometryNames[static_cast<size_t>(pass)]);
 }
 
-vk::Pipeline Pipelines::geometry(GeometryPass pass, const VariantKey &key) {
-  return *geometry_.findOrMake(std::tuple(pass, key),
-                               [=, this] { return makeGeometry(pass, key); });
+vk::Pipeline Pipelines::geometry(GeometryPass pass, const VariantKey& key) {
+    return *geometry_.findOrMake(std::tuple(pass, key),
+                                 [=, this] { return makeGeometry(pass, key); });
 }
 
-bool Pipelines::prepareGeometry(GeometryPass pass, const VariantKey &key) {
-  return geometry_.prepare(std::tuple(pass, key),
-                           [=, this] { return makeGeometry(pass, key); });
+bool Pipelines::prepareGeometry(GeometryPass pass, const VariantKey& key) {
+    return geometry_.prepare(std::tuple(pass, key), [=, this] { return makeGeometry(pass, key); });
 }
 
-vk::Pipeline Pipelines::screen(ScreenPass pass, const VariantKey &key) {
-  return *screen_.findOrMake(std::tuple(pass, key), [=, this] {
-    const bool batched = (key.light_flags & io::kLightBatched) != 0;
-    switch (pass) {
-    case ScreenPass::kLighting:
-      return gpu::makeComputePipeline(
-          device_,
-          batched ? shaders::lighting_batched_comp() : shaders::lighting_comp(),
-          constants(key), *screen_layout_, "lighting");
-    case ScreenPass::kToon:
-      return gpu::makeComputePipeline(device_, shaders::toon_comp(),
-                                      constants(key), *screen_layout_, "toon");
-    case ScreenPass::kOutline:
-      return gpu::makeComputePipeline(device_, shaders::outline_comp(),
-                                      constants(key), *screen_layout_,
-                                      "outline");
-    case ScreenPass::kTonemap:
-      break;
-    }
-    return gpu::makeComputePipeline(device_, shaders::tonemap_comp(),
-                                    constants(key), *screen_layout_, "tonemap");
-  });
+vk::Pipeline Pipelines::screen(ScreenPass pass, const VariantKey& key) {
+    return *screen_.findOrMake(std::tuple(pass, key), [=, this] {
+        const bool batched = (key.light_flags & io::kLightBatched) != 0;
+        switch (pass) {
+        case ScreenPass::kLighting:
+            return gpu::makeComputePipeline(
+                device_, batched ? shaders::lighting_batched_comp() : shaders::lighting_comp(),
+                constants(key), *screen_layout_, "lighting");
+        case ScreenPass::kToon:
+            return gpu::makeComputePipeline(device_, shaders::toon_comp(), constants(key),
+                                            *screen_layout_, "toon");
+        case ScreenPass::kOutline:
+            return gpu::makeComputePipeline(device_, shaders::outline_comp(), constants(key),
+                                            *screen_layout_, "outline");
+        case ScreenPass::kTonemap:
+            break;
+        }
+        return gpu::makeComputePipeline(device_, shaders::tonemap_comp(), constants(key),
+                                        *screen_layout_, "tonemap");
+    });
 }
 
-vk::Pipeline Pipelines::fragmentLighting(const VariantKey &key,
-                                         bool covered_alone) {
-  return *fragment_lighting_.findOrMake(
-      std::tuple(covered_alone, key), [=, this] {
+vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key, bool covered_alone) {
+    return *fragment_lighting_.findOrMake(std::tuple(covered_alone, key), [=, this] {
         gpu::GraphicsPipelineInfo info;
         info.vertex = shaders::fullscreen_vert();
         info.fragment = (key.light_flags & io::kLightBatched) != 0
@@ -356,45 +324,54 @@ vk::Pipeline Pipelines::fragmentLighting(const VariantKey &key,
         info.layout = *screen_layout_;
         info.color_formats = {kRadianceFormat};
         if (covered_alone) { // it is drawn at the far end
-          info.depth_format = kDepthFormat;
-          info.depth_compare = vk::CompareOp::eLess;
-          info.depth_write = false;
+            info.depth_format = kDepthFormat;
+            info.depth_compare = vk::CompareOp::eLess;
+            info.depth_write = false;
         }
         return gpu::makeGraphicsPipeline(device_, info, kFragmentLightingName);
-      });
+    });
 }
 
 vk::Pipeline Pipelines::blendResolve(settings::Transparency transparency) {
-  return *blend_resolve_.findOrMake(transparency, [=, this] {
-    gpu::GraphicsPipelineInfo info;
-    info.vertex = shaders::fullscreen_vert();
-    info.fragment = transparency == settings::Transparency::kWeighted
-                        ? shaders::blend_resolve_weighted_frag()
-                        : shaders::blend_resolve_peeled_frag();
-    info.layout = *resolve_layout_;
-    info.color_formats = {kRadianceFormat};
-    info.blend = gpu::Blend::kOver;
-    return gpu::makeGraphicsPipeline(device_, info, kBlendResolveName);
-  });
+    return *blend_resolve_.findOrMake(transparency, [=, this] {
+        gpu::GraphicsPipelineInfo info;
+        info.vertex = shaders::fullscreen_vert();
+        info.fragment = transparency == settings::Transparency::kWeighted
+                            ? shaders::blend_resolve_weighted_frag()
+                            : shaders::blend_resolve_peeled_frag();
+        info.layout = *resolve_layout_;
+        info.color_formats = {kRadianceFormat};
+        info.blend = gpu::Blend::kOver;
+        return gpu::makeGraphicsPipeline(device_, info, kBlendResolveName);
+    });
+}
+
+vk::Pipeline Pipelines::blendOverUnlit(settings::Transparency transparency, uint32_t output_flags) {
+    const bool weighted = transparency == settings::Transparency::kWeighted;
+    return *blend_over_unlit_.findOrMake(std::tuple(weighted, output_flags), [=, this] {
+        return gpu::makeComputePipeline(
+            device_,
+            weighted ? shaders::blend_over_unlit_weighted_comp() : shaders::blend_over_unlit_comp(),
+            constants({0, 0, output_flags}), *over_unlit_layout_, kBlendOverUnlitName);
+    });
 }
 
 std::vector<Pipelines::Made> Pipelines::made() const {
-  std::vector<Made> all;
-  geometry_.forEachKey([&](const auto &id) {
-    all.push_back({kGeometryNames[static_cast<size_t>(std::get<0>(id))],
-                   std::get<1>(id)});
-  });
-  screen_.forEachKey([&](const auto &id) {
-    all.push_back(
-        {kScreenNames[static_cast<size_t>(std::get<0>(id))], std::get<1>(id)});
-  });
-  fragment_lighting_.forEachKey([&](const auto &id) {
-    all.push_back({kFragmentLightingName, std::get<1>(id)});
-  });
-  blend_resolve_.forEachKey([&](const auto & /*key*/) {
-    all.push_back({kBlendResolveName, {}});
-  });
-  return all;
+    std::vector<Made> all;
+    geometry_.forEachKey([&](const auto& id) {
+        all.push_back({kGeometryNames[static_cast<size_t>(std::get<0>(id))], std::get<1>(id)});
+    });
+    screen_.forEachKey([&](const auto& id) {
+        all.push_back({kScreenNames[static_cast<size_t>(std::get<0>(id))], std::get<1>(id)});
+    });
+    fragment_lighting_.forEachKey([&](const auto& id) {
+        all.push_back({kFragmentLightingName, std::get<1>(id)});
+    });
+    blend_resolve_.forEachKey([&](const auto& /*key*/) { all.push_back({kBlendResolveName, {}}); });
+    blend_over_unlit_.forEachKey([&](const auto& id) {
+        all.push_back({kBlendOverUnlitName, {0, 0, std::get<1>(id)}});
+    });
+    return all;
 }
 
 } // namespace froxel::render

@@ -1,5 +1,4 @@
-// The pipelines in use, made when first needed: a variant is three words of
-// flags.
+// The pipelines in use, made when first needed: a variant is three words of flags.
 #pragma once
 
 #include "gpu/device.h"
@@ -19,169 +18,151 @@
 namespace froxel::render {
 
 enum class GeometryPass : uint8_t {
-  kDepth,             // prepass
-  kGbuffer,           // geometry pass of the deferred renderers
-  kGbufferAfterDepth, // likewise where the prepass left the same depth
-  kForward,           // forward, writing depth
-  kForwardAfterDepth, // forward where the prepass left the same depth
-  kTransparent,       // forward, blended, over finished depth
-  kWeighted,          // forward, summed by weights
-  kPeelSelect,        // which triangle each pixel's next layer is of
-  kPeelShade,         // forward, that layer under those before
-  kPeelCount,         // pixels that have yet another
-  kOverdraw,          // counts fragments, writing depth
+    kDepth,             // prepass
+    kGbuffer,           // geometry pass of the deferred renderers
+    kGbufferAfterDepth, // likewise where the prepass left the same depth
+    kForward,           // forward, writing depth
+    kForwardAfterDepth, // forward where the prepass left the same depth
+    kTransparent,       // forward, blended, over finished depth
+    kWeighted,          // forward, summed by weights
+    kPeelSelect,        // which triangle each pixel's next layer is of
+    kPeelShade,         // forward, that layer under those before
+    kPeelCount,         // pixels that have yet another
+    kOverdraw,          // counts fragments, writing depth
 };
 
 enum class ScreenPass : uint8_t { kLighting, kToon, kOutline, kTonemap };
 
 // Peeling passes tell triangles apart.
 [[nodiscard]] constexpr bool peels(GeometryPass pass) {
-  return pass == GeometryPass::kPeelSelect ||
-         pass == GeometryPass::kPeelShade || pass == GeometryPass::kPeelCount;
+    return pass == GeometryPass::kPeelSelect || pass == GeometryPass::kPeelShade ||
+           pass == GeometryPass::kPeelCount;
 }
 
 // Passes that no material has a say in, but a masked one.
 [[nodiscard]] constexpr bool depthOnly(GeometryPass pass) {
-  return pass == GeometryPass::kDepth || pass == GeometryPass::kOverdraw ||
-         pass == GeometryPass::kPeelSelect || pass == GeometryPass::kPeelCount;
+    return pass == GeometryPass::kDepth || pass == GeometryPass::kOverdraw ||
+           pass == GeometryPass::kPeelSelect || pass == GeometryPass::kPeelCount;
 }
 
 // Which specialisation a pipeline has (shaders/interface/constants.h).
 struct VariantKey {
-  MaterialFlags material_flags = 0;
-  uint32_t light_flags = 0;
-  uint32_t output_flags = 0;
-  auto operator<=>(const VariantKey &) const = default;
+    MaterialFlags material_flags = 0;
+    uint32_t light_flags = 0;
+    uint32_t output_flags = 0;
+    auto operator<=>(const VariantKey&) const = default;
 };
 
 struct FrameBinding {
-  vk::DescriptorType type;
-  vk::Format texels = vk::Format::eUndefined; // of a texel buffer
+    vk::DescriptorType type;
+    vk::Format texels = vk::Format::eUndefined; // of a texel buffer
 };
 // By the bindings of interface/frame_bindings.h.
 inline constexpr auto kFrameBindings = [] {
-  using Type = vk::DescriptorType;
-  constexpr auto kTexels = Type::eUniformTexelBuffer;
-  std::array<FrameBinding, io::kFrameBindingCount> all{};
-  all[io::kFrameBinding] = {Type::eUniformBuffer};
-  all[io::kLightsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
-  all[io::kListsBinding] = {kTexels, vk::Format::eR32G32Uint};
-  all[io::kIndicesBinding] = {kTexels, vk::Format::eR32Uint};
-  all[io::kSpotsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
-  all[io::kSunsBinding] = {Type::eStorageBuffer};
-  all[io::kFogBinding] = {Type::eUniformBuffer};
-  all[io::kFogVolumeBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
-  all[io::kShadowOfLightBinding] = {kTexels, vk::Format::eR32Uint};
-  all[io::kShadowLightsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
-  all[io::kShadowAtlasBinding] = {Type::eSampledImage};
-  all[io::kAreasBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
-  all[io::kLtcBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
-  all[io::kEnvironmentBinding] = {Type::eUniformBuffer};
-  all[io::kLevelsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
-  all[io::kLobesBinding] = {kTexels, vk::Format::eR32G32Sfloat};
-  return all;
+    using Type = vk::DescriptorType;
+    constexpr auto kTexels = Type::eUniformTexelBuffer;
+    std::array<FrameBinding, io::kFrameBindingCount> all{};
+    all[io::kFrameBinding] = {Type::eUniformBuffer};
+    all[io::kLightsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kListsBinding] = {kTexels, vk::Format::eR32G32Uint};
+    all[io::kIndicesBinding] = {kTexels, vk::Format::eR32Uint};
+    all[io::kSpotsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kSunsBinding] = {Type::eStorageBuffer};
+    all[io::kFogBinding] = {Type::eUniformBuffer};
+    all[io::kFogVolumeBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kShadowOfLightBinding] = {kTexels, vk::Format::eR32Uint};
+    all[io::kShadowLightsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kShadowAtlasBinding] = {Type::eSampledImage};
+    all[io::kAreasBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kLtcBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kEnvironmentBinding] = {Type::eUniformBuffer};
+    all[io::kLevelsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kLobesBinding] = {kTexels, vk::Format::eR32G32Sfloat};
+    return all;
 }();
 
-[[nodiscard]] gpu::SpecConstants specConstants(const VariantKey &key,
-                                               const gpu::DeviceTraits &device);
+[[nodiscard]] gpu::SpecConstants specConstants(const VariantKey& key,
+                                               const gpu::DeviceTraits& device);
 // Of passes that sample materials in the fragment stage.
-[[nodiscard]] gpu::SpecConstants
-fragmentConstants(VariantKey key, const gpu::DeviceTraits &device);
+[[nodiscard]] gpu::SpecConstants fragmentConstants(VariantKey key, const gpu::DeviceTraits& device);
 
 class Pipelines {
-public:
-  static constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
-  static constexpr vk::Format kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
-  static constexpr vk::Format kBlendWeightFormat = vk::Format::eR32Sfloat;
-  static constexpr vk::Format kPeelKeyFormat =
-      vk::Format::eR32G32Uint; // depth's bits, order
-  // Variants kept: of surfaces, where a frame takes one for each kind of
-  // material, and of passes over the picture. llvmpipe takes 4 MB for one.
-  static constexpr size_t kKeptGeometry = 48;
-  static constexpr size_t kKeptScreen = 16;
+  public:
+    static constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
+    static constexpr vk::Format kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
+    static constexpr vk::Format kBlendWeightFormat = vk::Format::eR32Sfloat;
+    static constexpr vk::Format kPeelKeyFormat = vk::Format::eR32G32Uint; // depth's bits, order
+    // Variants kept: of surfaces, where a frame takes one for each kind of material, and of passes
+    // over the picture. llvmpipe takes 4 MB for one.
+    static constexpr size_t kKeptGeometry = 48;
+    static constexpr size_t kKeptScreen = 16;
 
-  Pipelines(const gpu::Device &device, const gpu::Timeline &timeline,
-            VariantMaker &maker);
+    Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, VariantMaker& maker);
 
-  // These may throw VariantsMissing.
-  [[nodiscard]] vk::Pipeline geometry(GeometryPass pass, const VariantKey &key);
-  // Whether geometry() has it; asks for it where not.
-  [[nodiscard]] bool prepareGeometry(GeometryPass pass, const VariantKey &key);
-  // geometry() has it and has not given it yet: a software device compiles it
-  // when it draws.
-  [[nodiscard]] bool isNewGeometry(GeometryPass pass,
-                                   const VariantKey &key) const {
-    return geometry_.isNew(std::tuple(pass, key));
-  }
-  // What weighted or peeled surfaces came to, over the picture.
-  [[nodiscard]] vk::Pipeline blendResolve(settings::Transparency transparency);
-  [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey &key);
-  // The lighting pass in the fragment stage; covered_alone: with the depth
-  // buffer attached, at whose empty pixels it does not run.
-  [[nodiscard]] vk::Pipeline fragmentLighting(const VariantKey &key,
-                                              bool covered_alone);
+    // These may throw VariantsMissing.
+    [[nodiscard]] vk::Pipeline geometry(GeometryPass pass, const VariantKey& key);
+    // Whether geometry() has it; asks for it where not.
+    [[nodiscard]] bool prepareGeometry(GeometryPass pass, const VariantKey& key);
+    // geometry() has it and has not given it yet: a software device compiles it when it draws.
+    [[nodiscard]] bool isNewGeometry(GeometryPass pass, const VariantKey& key) const {
+        return geometry_.isNew(std::tuple(pass, key));
+    }
+    // What was blended apart, over the picture.
+    [[nodiscard]] vk::Pipeline blendResolve(settings::Transparency transparency);
+    // The same where some of the picture is unlit, in compute.
+    [[nodiscard]] vk::Pipeline blendOverUnlit(settings::Transparency transparency,
+                                              uint32_t output_flags);
+    [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey& key);
+    // The lighting pass in the fragment stage; covered_alone: with the depth buffer attached, at
+    // whose empty pixels it does not run.
+    [[nodiscard]] vk::Pipeline fragmentLighting(const VariantKey& key, bool covered_alone);
 
-  // The variants kept, of every kind.
-  struct Made {
-    std::string_view pass;
-    VariantKey key;
-  };
-  [[nodiscard]] std::vector<Made> made() const;
+    // The variants kept, of every kind.
+    struct Made {
+        std::string_view pass;
+        VariantKey key;
+    };
+    [[nodiscard]] std::vector<Made> made() const;
 
-  [[nodiscard]] vk::DescriptorSetLayout frameLayout() const {
-    return *frame_layout_;
-  }
-  [[nodiscard]] vk::DescriptorSetLayout materialLayout() const {
-    return *material_layout_;
-  }
-  [[nodiscard]] vk::DescriptorSetLayout screenLayout() const {
-    return *screen_set_layout_;
-  }
-  // Two sampled images: peeling's solid depth and keys, or what the resolve
-  // reads.
-  [[nodiscard]] vk::DescriptorSetLayout blendSetLayout() const {
-    return *blend_set_layout_;
-  }
-  [[nodiscard]] vk::PipelineLayout blendResolveLayout() const {
-    return *resolve_layout_;
-  }
-  [[nodiscard]] vk::PipelineLayout geometryPipelineLayout() const {
-    return *geometry_layout_;
-  }
-  // As that, a blend set and the push constants of io::PeelDraw.
-  [[nodiscard]] vk::PipelineLayout peelPipelineLayout() const {
-    return *peel_layout_;
-  }
-  [[nodiscard]] vk::PipelineLayout screenPipelineLayout() const {
-    return *screen_layout_;
-  }
+    [[nodiscard]] vk::DescriptorSetLayout frameLayout() const { return *frame_layout_; }
+    [[nodiscard]] vk::DescriptorSetLayout materialLayout() const { return *material_layout_; }
+    [[nodiscard]] vk::DescriptorSetLayout screenLayout() const { return *screen_set_layout_; }
+    // Two sampled images: peeling's solid depth and keys, or what the resolve reads.
+    [[nodiscard]] vk::DescriptorSetLayout blendSetLayout() const { return *blend_set_layout_; }
+    [[nodiscard]] vk::PipelineLayout blendResolveLayout() const { return *resolve_layout_; }
+    // Frame, screen, and what the resolve reads.
+    [[nodiscard]] vk::PipelineLayout blendOverUnlitLayout() const { return *over_unlit_layout_; }
+    [[nodiscard]] vk::PipelineLayout geometryPipelineLayout() const { return *geometry_layout_; }
+    // As that, a blend set and the push constants of io::PeelDraw.
+    [[nodiscard]] vk::PipelineLayout peelPipelineLayout() const { return *peel_layout_; }
+    [[nodiscard]] vk::PipelineLayout screenPipelineLayout() const { return *screen_layout_; }
 
-  [[nodiscard]] static vk::Format gbufferFormat(uint32_t output_flags) {
-    return (output_flags & io::kOutputWideGbuffer) != 0
-               ? vk::Format::eR32G32B32A32Uint
-               : vk::Format::eR32G32Uint;
-  }
+    [[nodiscard]] static vk::Format gbufferFormat(uint32_t output_flags) {
+        return (output_flags & io::kOutputWideGbuffer) != 0 ? vk::Format::eR32G32B32A32Uint
+                                                            : vk::Format::eR32G32Uint;
+    }
 
-private:
-  [[nodiscard]] gpu::SpecConstants constants(const VariantKey &key) const {
-    return specConstants(key, device_.traits());
-  }
-  [[nodiscard]] vk::raii::Pipeline makeGeometry(GeometryPass pass,
-                                                const VariantKey &key) const;
+  private:
+    [[nodiscard]] gpu::SpecConstants constants(const VariantKey& key) const {
+        return specConstants(key, device_.traits());
+    }
+    [[nodiscard]] vk::raii::Pipeline makeGeometry(GeometryPass pass, const VariantKey& key) const;
 
-  const gpu::Device &device_;
-  vk::raii::DescriptorSetLayout frame_layout_;
-  vk::raii::DescriptorSetLayout material_layout_;
-  vk::raii::DescriptorSetLayout screen_set_layout_;
-  vk::raii::PipelineLayout geometry_layout_;
-  vk::raii::PipelineLayout screen_layout_;
-  vk::raii::DescriptorSetLayout blend_set_layout_;
-  vk::raii::PipelineLayout peel_layout_;
-  vk::raii::PipelineLayout resolve_layout_;
-  VariantCache<settings::Transparency> blend_resolve_;
-  VariantCache<std::tuple<GeometryPass, VariantKey>> geometry_;
-  VariantCache<std::tuple<ScreenPass, VariantKey>> screen_;
-  VariantCache<std::tuple<bool, VariantKey>> fragment_lighting_;
+    const gpu::Device& device_;
+    vk::raii::DescriptorSetLayout frame_layout_;
+    vk::raii::DescriptorSetLayout material_layout_;
+    vk::raii::DescriptorSetLayout screen_set_layout_;
+    vk::raii::PipelineLayout geometry_layout_;
+    vk::raii::PipelineLayout screen_layout_;
+    vk::raii::DescriptorSetLayout blend_set_layout_;
+    vk::raii::PipelineLayout peel_layout_;
+    vk::raii::PipelineLayout resolve_layout_;
+    vk::raii::PipelineLayout over_unlit_layout_;
+    VariantCache<settings::Transparency> blend_resolve_;
+    VariantCache<std::tuple<bool, uint32_t>> blend_over_unlit_;
+    VariantCache<std::tuple<GeometryPass, VariantKey>> geometry_;
+    VariantCache<std::tuple<ScreenPass, VariantKey>> screen_;
+    VariantCache<std::tuple<bool, VariantKey>> fragment_lighting_;
 };
 
 } // namespace froxel::render

@@ -120,7 +120,8 @@ SurfaceNeeds surfaceNeeds(const scene::Material& m, MaterialFlags flags) {
                      (flags & io::kMaterialFilm) != 0,
             .layers = (flags & io::kMaterialLayers) != 0 && solid,
             .masked = m.alpha_mode == scene::AlphaMode::kMask,
-            .blended = !solid};
+            .blended = !solid,
+            .unlit = m.unlit && solid};
 }
 
 } // namespace
@@ -134,6 +135,7 @@ void SurfaceNeeds::add(const SurfaceNeeds& other) {
     layers |= other.layers;
     masked |= other.masked;
     blended |= other.blended;
+    unlit |= other.unlit;
 }
 
 SceneNeeds findNeeds(const scene::Scene& scene, bool layers) {

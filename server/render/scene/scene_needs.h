@@ -20,6 +20,7 @@ struct SurfaceNeeds {
     bool layers = false; // a solid surface has layers over it: a coat
     bool masked = false;
     bool blended = false;
+    bool unlit = false; // a solid surface is
 
     void add(const SurfaceNeeds& other);
 };

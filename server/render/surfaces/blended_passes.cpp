@@ -1,5 +1,6 @@
 #include "render/surfaces/blended_passes.h"
 
+#include "render/pipelines/screen_groups.h"
 #include "render/surfaces/geometry_draws.h"
 #include "render/surfaces/rendering_scope.h"
 
@@ -79,6 +80,20 @@ void recordBlendResolve(const FrameContext& frame, const vk::Rect2D& region) {
     cmd.setCullMode(vk::CullModeFlagBits::eNone);
     cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
     cmd.draw(3, 1, 0, 0);
+}
+
+void recordBlendOverUnlit(const FrameContext& frame, const vk::Rect2D& region) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "blend_over_unlit");
+    const auto& cmd = frame.slot.cmd;
+    auto& pipelines = frame.scene.shared.pipelines;
+    cmd.bindPipeline(
+        vk::PipelineBindPoint::eCompute,
+        pipelines.blendOverUnlit(frame.plan.transparency, frame.plan.tone_output_flags));
+    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
+                             frame.slot.blend->resolveSet()};
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.blendOverUnlitLayout(), 0,
+                           sets, {});
+    dispatchOver(cmd, region);
 }
 
 } // namespace froxel::render

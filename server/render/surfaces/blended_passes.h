@@ -1,4 +1,5 @@
-// The passes of weighted and peeled surfaces; as in passes.h, the order is in blended_recorder.cpp.
+// The passes of surfaces that are blended apart; as in passes.h, the order is in
+// blended_recorder.cpp.
 #pragma once
 
 #include "render/frame/frame_context.h"
@@ -21,5 +22,7 @@ void recordPeelCount(const FrameContext& frame,
                      uint32_t layers); // counts pixels with more layers
 void recordBlendResolve(const FrameContext& frame,
                         const vk::Rect2D& region); // reads sums and weights, blends over radiance
+void recordBlendOverUnlit(const FrameContext& frame,
+                          const vk::Rect2D& region); // the same in compute, where some is unlit
 
 } // namespace froxel::render

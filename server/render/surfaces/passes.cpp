@@ -189,9 +189,12 @@ void recordOutline(const FrameContext& frame, const vk::Rect2D& region) {
 
 void recordTransparent(const FrameContext& frame, const vk::Rect2D& region) {
     const auto pass = GeometryPass::kTransparent;
-    inGroups(frame, pass, frame.draws.transparent, [&](const auto& groups, bool) {
+    inGroups(frame, pass, frame.draws.transparent, [&](const auto& groups, bool first) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "transparent");
-        const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
+        const auto& sums =
+            frame.plan.over_unlit ? frame.slot.blend->sums : frame.slot.targets->radiance;
+        const auto load = frame.plan.over_unlit && first ? LoadOp::eClear : LoadOp::eLoad;
+        const std::array colors = {attachment(sums, load, nothing())};
         const auto depth = attachment(frame.slot.targets->depth, LoadOp::eLoad);
         const Rendering rendering(frame, region, colors, &depth);
         drawGroups(frame, pass, groups);
