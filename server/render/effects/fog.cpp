@@ -12,7 +12,6 @@
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/screen_groups.h"
 
-#include <algorithm>
 #include <array>
 
 namespace froxel::render {
