@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <utility>
+
 namespace froxel::session {
 
 const std::string& settingWords() {
@@ -11,11 +13,15 @@ const std::string& settingWords() {
         nlohmann::ordered_json list = nlohmann::ordered_json::array();
         for (const SessionSetting& setting : sessionSettings()) {
             const settings::Setting& facts = setting.facts();
-            list.push_back({{"name", facts.name},
-                            {"label", facts.words.label},
-                            {"help", facts.words.help},
-                            {"unit", facts.words.unit},
-                            {"cost", facts.words.cost}});
+            nlohmann::ordered_json row = {
+                {"name", facts.name}, {"label", facts.words.label}, {"help", facts.words.help}};
+            for (const auto& [key, words] :
+                 {std::pair("unit", facts.words.unit), std::pair("cost", facts.words.cost)}) {
+                if (!words.empty()) {
+                    row[key] = words;
+                }
+            }
+            list.push_back(std::move(row));
         }
         return list.dump();
     }();
