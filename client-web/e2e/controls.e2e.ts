@@ -37,6 +37,7 @@ const kGiven: Readonly<Record<string, readonly [number, boolean]>> = {
   lights: [300, true],
   light_radius: [4, true],
   light_intensity: [3, true],
+  scene_light_intensity: [0.25, true],
   light_cutoff: [0.01, true],
   seed: [12_345_678, true],
   ambient: [5, true],
