@@ -15,10 +15,10 @@ const std::string& settingWords() {
             const settings::Setting& facts = setting.facts();
             nlohmann::ordered_json row = {
                 {"name", facts.name}, {"label", facts.words.label}, {"help", facts.words.help}};
-            for (const auto& [key, words] :
+            for (const auto& [key, text] :
                  {std::pair("unit", facts.words.unit), std::pair("cost", facts.words.cost)}) {
-                if (!words.empty()) {
-                    row[key] = words;
+                if (!text.empty()) {
+                    row[key] = text;
                 }
             }
             list.push_back(std::move(row));

@@ -56,7 +56,9 @@ constexpr int componentType() {
 template <class T>
 Bytes bytesOf(const std::vector<T>& values) {
     Bytes bytes(values.size() * sizeof(T));
-    std::memcpy(bytes.data(), values.data(), bytes.size());
+    if (!values.empty()) { // whose data() may be null
+        std::memcpy(bytes.data(), values.data(), bytes.size());
+    }
     return bytes;
 }
 
