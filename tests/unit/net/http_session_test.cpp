@@ -125,6 +125,8 @@ class LateAnswerTest : public testing::Test {
         client_.connect(acceptor_.local_endpoint());
         std::make_shared<HttpSession>(acceptor_.accept(), nullptr, site_, oneTicket())->start();
     }
+    // What was asked last holds the session, which holds the site.
+    ~LateAnswerTest() override { site_->asked = nullptr; }
     void send(std::string_view path) {
         boost::asio::write(client_, boost::asio::buffer("GET " + std::string(path) +
                                                         " HTTP/1.1\r\nHost: localhost\r\n\r\n"));
