@@ -208,20 +208,16 @@ uint32_t MaterialReader::withTexcoords(uint32_t material,
                                        const TexcoordPlaces& places,
                                        const std::string& pointer,
                                        const std::string& user) {
-    scene::Material changed = scene_.materials[material];
-    auto set = texcoord_sets_.at(material).begin();
+    const auto& sets = texcoord_sets_.at(material);
+    const auto slots = textureSlots(scene_.materials[material]);
     size_t left_out = 0;
     bool moved = false;
-    for (scene::TextureSlot* slot : textureSlots(changed)) {
-        const auto place = places.find(*set++);
-        if (slot->texture == scene::kNone) {
-            continue;
-        }
-        if (place == places.end()) {
-            clearTexture(changed, *slot);
+    for (size_t i = 0; i < slots.size(); ++i) {
+        const auto place = places.find(sets[i]);
+        if (slots[i]->texture != scene::kNone && place == places.end()) {
             ++left_out;
-        } else {
-            moved |= place->second != std::exchange(slot->texcoord, place->second);
+        } else if (slots[i]->texture != scene::kNone) {
+            moved |= place->second != slots[i]->texcoord;
         }
     }
     if (left_out > 0) {
@@ -235,6 +231,16 @@ uint32_t MaterialReader::withTexcoords(uint32_t material,
     const auto position = static_cast<uint32_t>(scene_.materials.size());
     const auto [known, is_new] = with_texcoords_.try_emplace({material, places}, position);
     if (is_new) {
+        scene::Material changed = scene_.materials[material];
+        const auto own = textureSlots(changed);
+        for (size_t i = 0; i < own.size(); ++i) {
+            const auto place = places.find(sets[i]);
+            if (own[i]->texture != scene::kNone && place == places.end()) {
+                clearTexture(changed, *own[i]);
+            } else if (own[i]->texture != scene::kNone) {
+                own[i]->texcoord = place->second;
+            }
+        }
         scene_.materials.push_back(std::move(changed));
     }
     return known->second;

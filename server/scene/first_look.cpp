@@ -37,10 +37,11 @@ bool isShowcase(const Scene& scene) {
 
 // Of the studio beside other lights. In a room, which it would light through the walls, less.
 constexpr float kFill = 0.3F;
+constexpr float kFillOfRooms = 0.25F;
+
 // What a white surface sends, of white, of the light of the file's own that arrives in the mean:
 // with the studio's fill it is near white.
 constexpr double kOfWhite = 0.7;
-constexpr float kFillOfRooms = 0.25F;
 
 // Dark and white things stand out from it, coloured ones keep their colours.
 constexpr settings::Background kStudioBackground{glm::vec3(0.05F), 0.6F};
