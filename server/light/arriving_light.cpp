@@ -14,9 +14,8 @@ namespace {
 constexpr size_t kMostPairs = size_t{1} << 22U; // of places and lights
 constexpr size_t kLeastPlaces = 64;
 
-double luminanceOf(const scene::PunctualLight& light) {
-    return glm::dot(glm::dvec3(light.color), glm::dvec3(0.2126, 0.7152, 0.0722)) *
-           static_cast<double>(light.intensity);
+double brightnessOf(const scene::PunctualLight& light) {
+    return luminanceOf(glm::dvec3(light.color)) * static_cast<double>(light.intensity);
 }
 
 double facing(const LightPlace& place, const glm::dvec3& to_light) {
@@ -36,7 +35,7 @@ double coneShare(const scene::PunctualLight& light, const glm::dvec3& to_light) 
 // Not finite where the light is not.
 double irradianceAt(const LightPlace& place, const scene::PunctualLight& light, double nearest_m) {
     if (light.type == scene::LightType::kDirectional) {
-        return luminanceOf(light) * facing(place, -glm::normalize(light.direction_world));
+        return brightnessOf(light) * facing(place, -glm::normalize(light.direction_world));
     }
     const glm::dvec3 offset_m = light.position_world - place.position_world;
     const double distance_m = glm::length(offset_m);
@@ -48,7 +47,7 @@ double irradianceAt(const LightPlace& place, const scene::PunctualLight& light, 
         light.range_m > 0 ? distance_m / static_cast<double>(light.range_m) : 0.0;
     const double window = std::pow(std::max(1 - std::pow(of_range, 4), 0.0), 2);
     const double cone = light.type == scene::LightType::kSpot ? coneShare(light, to_light) : 1.0;
-    return luminanceOf(light) * window * cone * facing(place, to_light) /
+    return brightnessOf(light) * window * cone * facing(place, to_light) /
            std::pow(std::max(distance_m, nearest_m), 2);
 }
 

@@ -28,6 +28,11 @@ inline constexpr double kNearest_m = 0.01;
                : std::max(glm::length(scene_bounds_world.size()) / 2, kLeast_m);
 }
 
+// Of linear colours with Rec. 709's primaries.
+[[nodiscard]] inline double luminanceOf(const glm::dvec3& color) {
+    return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
 [[nodiscard]] inline double strongestChannel(const glm::vec3& color) {
     return static_cast<double>(std::max({color.x, color.y, color.z}));
 }

@@ -1,6 +1,7 @@
 #include "light/seeded_lights.h"
 
 #include "core/parallel.h"
+#include "light/falloff.h"
 #include "light/hash.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ constexpr size_t kLightsPerThread = 32'768;
 // Luminance evened out halfway (by the square root): blue of red's full luminance would look like a
 // flare, unevened it would be lost.
 glm::vec3 evened(const glm::dvec3& color) {
-    const double luminance = glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
+    const double luminance = luminanceOf(color);
     return glm::vec3(color * std::sqrt(0.5 / luminance));
 }
 

@@ -1,6 +1,7 @@
 #include "light/shadow_choice.h"
 
 #include "core/parallel.h"
+#include "light/falloff.h"
 
 #include <algorithm>
 #include <array>
@@ -57,10 +58,6 @@ void keepFirst(Ranked& ranked, size_t count) {
     std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(kept),
                       ranked.end());
     ranked.resize(kept);
-}
-
-double luminanceOf(const glm::vec3& color) {
-    return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
 } // namespace
