@@ -8,8 +8,8 @@ export interface Note {
 }
 
 // Measured by taking them out of three.js' shaders.
-const kScattering = 'rough metal: three.js gives back what it would lose by scattering more than once';
-const kRounding = 'three.js takes curved surfaces for rougher than the file has them';
+const kScattering = 'rough metal: three.js restores light that scatters more than once';
+const kRounding = 'three.js increases the roughness of curved surfaces';
 
 const kNotes: Readonly<Record<string, Note>> = {
   'glass-table': { why: 'Froxel has no KHR_materials_transmission' },
@@ -20,7 +20,7 @@ const kNotes: Readonly<Record<string, Note>> = {
   metallic_roughness: { why: kScattering },
   punctual: { ownLights: true, why: "three.js lets a spot's edge fall off by another curve" },
   unlit: { why: 'three.js tone-maps unlit surfaces' },
-  specular: { why: 'under coloured reflections three.js takes each channel by itself from diffuse light' },
+  specular: { why: 'three.js reduces each channel of diffuse light by its own reflection' },
 };
 
 export const noteOf = (name: string): Note => kNotes[name] ?? {};

@@ -1,4 +1,4 @@
-"""Checks the documents: links, pictures, sizes, and that the index names every page.
+"""Checks the documents: links, pictures, and that the index names every page.
 
 Usage: check_links.py ROOT. Prints one line for each violation; exit 1 if there is any.
 """
@@ -9,7 +9,6 @@ import sys
 from pathlib import Path
 from urllib.parse import unquote
 
-MAX_BYTES = {"README.md": 9000, "ARCHITECTURE.md": 14000}
 INDEX = "docs/README.md"
 NOT_OURS = {"build", "dist", "node_modules"}  # and hidden folders
 # Files whose comments name documents by their path from the root.
@@ -52,9 +51,6 @@ def check_page(root, name):
     """Yields the violations of one document."""
     path = root / name
     text = path.read_text(encoding="utf-8")
-    size = len(text.encode())
-    if size > MAX_BYTES.get(name, size):
-        yield f"{name}: {size} bytes, at most {MAX_BYTES[name]}; move something to a page of docs/"
     for line, target in links(text):
         if ELSEWHERE.match(target):
             continue

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Checks the language of documents, help texts and messages: spelling (cspell, words.txt has our own words), and the
+# length and openings of sentences (textlint, rules/). Needs `npm --prefix tests/docs ci`. Exit code 0: nothing found.
+# Complaints about FILE.txt are about the line of that number in FILE.
+set -euo pipefail
+
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+out=$root/build/prose
+bin=$here/node_modules/.bin
+[[ -x $bin/textlint ]] || { echo "check_prose.sh: run npm --prefix tests/docs ci first" >&2; exit 2; }
+
+cd "$root"
+mapfile -t documents < <(git ls-files '*.md')
+mapfile -t sources < <(git ls-files 'server/*.cpp' 'server/*.h' 'client-web/src/*.ts' 'client-web/report/*.ts' \
+    'client-web/*.html' 'client-web/report/*.html')
+rm -rf "$out"
+mkdir -p "$out"
+python3 "$here/messages.py" "$root" "$out" "${sources[@]}"
+cp --parents "${documents[@]}" "$out"
+
+cd "$out"
+mapfile -t texts < <(find . -type f | sed 's|^\./||' | sort)
+code=0
+"$bin/textlint" --rulesdir "$here/rules" --config "$here/.textlintrc.json" --format unix "${texts[@]}" | sed "s|^$out/||" || code=1
+"$bin/cspell" --config "$here/cspell.json" --no-progress --no-summary --root "$out" "${texts[@]}" || code=1
+exit "$code"
