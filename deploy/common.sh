@@ -177,11 +177,13 @@ once_per() { # NAME DIGEST COMMAND...
 
 digest() { sha256sum "$@" | sha256sum | cut -d ' ' -f 1; }
 
-install_node_modules() {
+install_node_modules() { # [FOLDER]
+    local folder=${1:-client-web}
+    local stamp=node_modules${1:+-${1//\//-}}
     (
-        cd "$root/client-web"
-        [[ -d node_modules ]] || rm -f "$root/build/stamps/node_modules"
-        once_per node_modules "$(digest package-lock.json)" \
+        cd "$root/$folder"
+        [[ -d node_modules ]] || rm -f "$root/build/stamps/$stamp"
+        once_per "$stamp" "$(digest package-lock.json)" \
             npm ci --no-audit --no-fund --loglevel=error
     )
 }

@@ -8,7 +8,7 @@
 source "$(dirname "$0")/common.sh"
 
 minutes=${1:-10}
-[[ $minutes =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "MINUTES is '$minutes'; right is a number, such as 10 or 0.5"
+[[ $minutes =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "MINUTES is '$minutes'; expected a number, such as 10 or 0.5"
 seconds=$(awk "BEGIN { print int($minutes * 60) }")
 cd "$root"
 names=("${@:2}")

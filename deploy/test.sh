@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs every test: C++ (ctest), the page's unit tests, types
-# and lint, and the page in a browser. Every stage runs even if one fails. Closes with what each stage
-# took and a line "N passed, N failed"; exit code 0 only if nothing failed.
+# Installs packages, builds, and runs every test: C++ (ctest), the page's unit tests, types and lint,
+# the language of documents and messages, and the page in a browser. Every stage runs even if one fails.
+# Ends with the duration of each stage and a line "N passed, N failed"; exit code 0 only if nothing failed.
 #   ./deploy/test.sh        every behaviour at least once
-#   ./deploy/test.sh all    besides, what repeats that at greater length (tests/support/tier.h, ctest's configuration "all")
+#   ./deploy/test.sh all    also the exhaustive tests (tests/support/tier.h, ctest's configuration "all")
 # shellcheck source=deploy/common.sh
 source "$(dirname "$0")/common.sh"
 
@@ -24,13 +24,18 @@ stage() { # NAME AIM COMMAND...
     note "$1" "$code" "$start" "$2"
 }
 
+check_prose() {
+    install_node_modules tests/docs
+    "$root/tests/docs/check_prose.sh"
+}
+
 # Runs an npm script that is Vitest.
 client_tests() { # STAGE AIM SCRIPT
     stage "$1" "$2" npm --prefix client-web run --silent "$3" -- \
         --reporter=default --reporter=junit --outputFile.junit="$reports/$1.xml"
 }
 
-[[ ${1:-} =~ ^(all)?$ && $# -le 1 ]] || die "not known: $*; right is all, or nothing"
+[[ ${1:-} =~ ^(all)?$ && $# -le 1 ]] || die "unknown argument: $*; expected all, or nothing"
 tests=${1:+all}
 
 cd "$root"
@@ -46,6 +51,7 @@ CHROMIUM=$(command -v chromium)
 export FROXEL_BINARY CHROMIUM
 stage ctest 400 ctest --preset "${tests:-check}" --parallel "$(($(nproc) + 1))" --output-junit "$reports/ctest.xml"
 stage lint 15 npm --prefix client-web run --silent lint
+stage prose 60 check_prose
 client_tests vitest 15 test
 client_tests e2e 150 e2e
 

@@ -181,7 +181,7 @@ it('LightSet_SavedAndLoaded_IsTheSame_AndNoSetIsRefusedByName', async () => {
   expect(told(viewer)).toEqual(before);
   await load('other.json', '{"lights": 3}');
   await until('a refusal', async () =>
-    ((await viewer.page.locator('#banner-text').textContent()) ?? '').startsWith("other.json is no light set",
+    ((await viewer.page.locator('#banner-text').textContent()) ?? '').startsWith("other.json is not a light set",
     ),
   );
   expect(told(viewer)).toEqual(before);

@@ -168,7 +168,7 @@ it('Full_BeforeTheFirstPicture', async () => {
     page.onMessage(() => void stay().then(() => page.close({ code: 4029 })));
   };
   await open();
-  await viewer.told('Every place on this server is taken. One is free when a viewer leaves.');
+  await viewer.told('All places on this server are in use. One becomes free when a viewer leaves.');
   await looksAsItShould('full');
 });
 
@@ -250,7 +250,7 @@ it('Draining', async () => {
   await openWithPicture();
   await stay();
   say({ case: 'draining', value: { deadlineMs: 60_000 } });
-  await viewer.told('The server is going down.');
+  await viewer.told('The server is shutting down.');
   expect(await dimmed()).toBe(false);
   await looksAsItShould('draining');
 });
@@ -264,7 +264,7 @@ it('AnotherVersion_AsksForAReload', async () => {
 
 it('Refused_Setting', async () => {
   await openWithPicture();
-  say({ case: 'error', value: { refSeq: 1n, field: 'exposure', message: 'exposure is -1; right is 0.001 to 1000' } });
+  say({ case: 'error', value: { refSeq: 1n, field: 'exposure', message: 'exposure is -1; expected 0.001 to 1000' } });
   await viewer.told('exposure is -1');
   expect(await dimmed()).toBe(false);
   await looksAsItShould('refused');

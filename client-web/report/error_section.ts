@@ -71,7 +71,7 @@ export function errorSection(results: Results, usual: Clock): Section {
   const section = card(
     'speed-against-error',
     'Speed against error',
-    'Left is faster, down is closer to the double-precision reference (R2). The line joins the settings that no other beats in both; the table lists them. Points are rows of any sweep that draw the same picture.',
+    'Points to the left are faster, points further down are closer to the double-precision reference (R2). The line joins the settings that no other setting beats in both; the table lists them. Points are rows of any sweep that draw the same picture.',
   );
   const pick = make('select');
   pick.setAttribute('aria-label', 'Picture drawn');

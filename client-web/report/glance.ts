@@ -51,7 +51,7 @@ export function figuresOf(results: Results): Figure[] {
     {
       name: 'rows measured',
       value: count(rows.length),
-      about: skipped > 0 ? `${skipped} left out, with reasons` : 'none left out',
+      about: skipped > 0 ? `${skipped} skipped, with reasons` : 'none left out',
     },
     {
       name: 'wall time',
@@ -96,7 +96,7 @@ export function showHead(
   ].join(' · ');
   head.append(make('h1', 'Froxel: speed against error'), make('p', where, 'where'));
   if (!results.complete) {
-    head.append(make('p', 'The run was stopped: what was measured until then is here.', 'warning'));
+    head.append(make('p', 'The run was stopped early. These are the rows measured before.', 'warning'));
   }
   const tiles = make('ul', '', 'tiles');
   for (const { name, value, about, bad } of figuresOf(results)) {

@@ -41,7 +41,7 @@ const exactness = ({ skipped, exact }: PictureError): 'good' | 'bad' | 'faint' =
 export const kErrorColumns: readonly Column<Row>[] = [
   {
     head: 'R1',
-    title: 'Against every light in the same way on the same device: must be 0',
+    title: 'Compared with every light on the same device: must be 0',
     text: ({ error_r1: e }) => (e.exact ? '0' : errorText(e.linear?.max_abs)),
     number: true,
     hint: ({ error_r1: e }) => e.skipped,
@@ -50,7 +50,7 @@ export const kErrorColumns: readonly Column<Row>[] = [
   {
     head: 'R2 largest',
     title:
-      'Against a double-precision shading on the host: largest absolute error, linear radiance',
+      'Compared with double-precision shading on the host: largest absolute error of linear radiance',
     text: ({ error_r2: e }) => errorText(e.linear?.max_abs),
     number: true,
     hint: ({ error_r2: e }) => e.skipped ?? (e.view === null ? null : `worst view: ${e.view}`),
@@ -132,7 +132,7 @@ function notes(rows: readonly Row[]): HTMLElement[] {
 function untold(sweep: Sweep): HTMLElement[] {
   const names = unknownPasses(sweep);
   if (names.length === 0) return [];
-  const text = `Time of passes unknown where the driver wrote no timestamps: ${names.map(words).join(', ')}.`;
+  const text = `Times of passes are unknown if the driver wrote no timestamps: ${names.map(words).join(', ')}.`;
   return [make('p', text, 'footnote')];
 }
 
@@ -264,7 +264,7 @@ export function publishedSection(results: Results): Section {
   const section = card(
     'published',
     'Published figures of others',
-    'On their hardware, with their scene: shapes may be compared, times may not.',
+    'Measured on other hardware, with other scenes: compare the shapes of the curves, not the times.',
   );
   const fold = make('details');
   fold.append(make('summary', `${results.published.length} series`));

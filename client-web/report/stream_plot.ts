@@ -48,7 +48,7 @@ export function streamPlot(
     x: { type: 'log', domain: [...x.domain], inset: 12 },
     y: { domain: [0, Math.max(...encoded.map(flipOf)) * 1.1] },
     marks: [
-      ...yAxis('mean LDR-FLIP against the picture encoded'),
+      ...yAxis('mean LDR-FLIP against the original picture'),
       ...xAxis('bits a pixel', x.ticks),
       Plot.line(encoded, { x: bitsOf, y: flipOf, z: 'series', stroke: colour, strokeWidth: 2 }),
       Plot.dot(encoded, { x: bitsOf, y: flipOf, fill: colour, r: 4 }),

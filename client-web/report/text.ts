@@ -15,7 +15,7 @@ export const kClockNames: Readonly<Record<Clock, string>> = {
 export const kClockWords: Readonly<Record<Clock, string>> = {
   gpu_us: 'from a frame’s first to its last timestamp on the device',
   frame_us: 'from submission to readable pixels',
-  cpu_us: 'of all the process’s threads: on a CPU device the steadiest of the four',
+  cpu_us: 'CPU time of all threads of the process; the most stable of the four on a CPU device',
   host_us: 'the host’s work until submission',
 };
 

@@ -138,7 +138,7 @@ export class Commands
     try {
       this.edit({ placedLights: reader.lightSetOf(await file.text()) });
     } catch (error) {
-      this.refuse(`${file.name} is no light set: ${error instanceof Error ? error.message : ''}`);
+      this.refuse(`${file.name} is not a light set: ${error instanceof Error ? error.message : ''}`);
     }
   }
 
@@ -211,7 +211,7 @@ export class Commands
 
   keepLook(label: string): string | null {
     const { server, settings } = this.store.state;
-    if (!server || !settings) return 'there is no view yet to keep the look of';
+    if (!server || !settings) return 'there is no view yet whose look could be saved';
     return keepLook(label, lookAddress(server, settings));
   }
 

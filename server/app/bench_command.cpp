@@ -105,8 +105,9 @@ startOf(const BenchOptions& options, const scene::Scene& scene, const gpu::Devic
 std::string readTemplate(const BenchOptions& options) {
     const auto root = findWebRoot(options.web_root);
     if (root.empty()) {
-        throw StartupError({ErrorCode::kIo, "--report: no page found; ./deploy/build.sh makes it, "
-                                            "--web-root names another"});
+        throw StartupError({ErrorCode::kIo,
+                            "--report: the built page was not found; run ./deploy/build.sh, or "
+                            "name its folder with --web-root"});
     }
     auto page = readText(root / "report.html").value();
     bench::fillReport(page, nullptr).value();
@@ -167,7 +168,7 @@ void printSummary(const bench::RunResult& result) {
         }
     }
     fmt::print("{} rows measured, {} left out, {:.0f} s{}\n", measured, skipped, result.elapsed_s,
-               result.complete ? "" : "; stopped before its end");
+               result.complete ? "" : "; stopped early");
 }
 
 std::vector<bench::Sweep> sweepsOf(const BenchOptions& options, const bench::Base& base) {

@@ -132,7 +132,7 @@ class CommandBuilder {
     // nothing, as templates do.
     static void neverEmpty(CLI::Option* option) {
         option->check([](const std::string& text) {
-            return text.empty() ? std::string("is empty; right is a value, or none at all")
+            return text.empty() ? std::string("is empty; give it a value, or remove it")
                                 : std::string();
         });
     }

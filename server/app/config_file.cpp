@@ -64,7 +64,7 @@ Result<ConfigValues> parseConfig(std::string_view text, const std::string& name)
             if (!values) {
                 return Error{ErrorCode::kInvalidArgument,
                              place(name, node.source()) + printable(key.str()) +
-                                 " must be a text, a number, true, false or a list of those"};
+                                 " must be a string, a number, true, false, or a list of these"};
             }
             config.emplace(key.str(), std::move(*values));
         }

@@ -14,8 +14,9 @@ DeviceLosses::DeviceLosses(const std::filesystem::path& folder)
     std::ifstream file(file_);
     if (file && !(file >> count_)) {
         count_ = 0;
-        spdlog::warn("event=losses_not_read file={} advice=\"holds no number: remove it\"",
-                     logValue(file_.string()));
+        spdlog::warn(
+            "event=losses_not_read file={} advice=\"the file contains no number; remove it\"",
+            logValue(file_.string()));
     }
 }
 

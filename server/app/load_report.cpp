@@ -267,7 +267,7 @@ std::string loadTable(const RunResult& result) {
         }
     }
     table += stagesLine(all);
-    table += fmt::format("longest wait for a due frame: {} ms; commands that none showed: {}\n",
+    table += fmt::format("longest wait for a due frame: {} ms; commands that no frame showed: {}\n",
                          shown(all.measured.samples.interval_ms, &report::Summary::max),
                          all.measured.commands_unshown);
     if (all.measured.refusal) {

@@ -105,7 +105,7 @@ void takeFile(CLI::App& cli, std::map<const CLI::Option*, OptionSource>& sources
             "--config " + printable(cli.get_option("--config")->results().front(), 200);
         CLI::Option* option = cli.get_option_no_throw("--" + key);
         if (option == nullptr || key == kFileOption || key == "help") {
-            throw CLI::ValidationError(where, "'" + printable(key) + "' is no option there");
+            throw CLI::ValidationError(where, "'" + printable(key) + "' is not an option there");
         }
         if (option->count() == 0) {
             give(*option, values, where + ": " + key);

@@ -34,9 +34,9 @@ constexpr settings::Range<double> kSecondsPerRowRange{"seconds_per_row", 0.01, 8
 constexpr settings::Range<double> kPairsRange{"pairs", 0.0, 1e18};
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done, 2 usage, 3 scene, 4 device, 5 address in use, 6 device lost while "
-    "serving, 1 anything else; bench: 1 where a picture is inexact or a compared run is worse; "
-    "load: 1 where a viewer failed or a bound is broken; both 130 stopped by a signal.";
+    "Exit codes: 0 success, 1 other error, 2 usage, 3 scene, 4 device, 5 address in use, 6 device "
+    "lost while serving. bench also exits with 1 if a picture is inexact or a compared run is "
+    "slower, and load if a viewer failed or a bound was broken. Both exit with 130 after a signal.";
 
 // What the subcommands fill. The one that was given copies its own to `result`.
 struct Targets {
@@ -83,7 +83,8 @@ Result<std::filesystem::path> parseGlbPath(const std::string& text) {
 }
 
 void addSceneOption(CommandBuilder& command, std::string& target, const std::string& shown) {
-    command.text("--scene", "PATH|builtin", target, shown, "glTF 2.0 or GLB file, or the hall");
+    command.text("--scene", "PATH|builtin", target, shown,
+                 "glTF 2.0 or GLB file, or the built-in hall");
 }
 
 void addScenesFolder(CommandBuilder& command,
@@ -93,24 +94,23 @@ void addScenesFolder(CommandBuilder& command,
         std::error_code unknown;
         return std::filesystem::is_directory(folder, unknown)
                    ? std::string()
-                   : "'" + printable(folder) + "' is no folder";
+                   : "'" + printable(folder) + "' is not a folder";
     });
 }
 
 void addSceneChoices(CommandBuilder& command, SceneChoices& target) {
     constexpr const char* kForm = "NAME|NUMBER|none";
     command.text("--animation", kForm, target.animation, "the scene's first",
-                 "Which of the scene's animations plays, numbers from 1");
+                 "Animation of the scene that plays, numbered from 1");
     command.text("--material-variant", kForm, target.material_variant, "none",
-                 "Which of the scene's material variants is shown, numbers from 1");
+                 "Material variant of the scene, numbered from 1");
 }
 
 void addEnvironmentFile(CommandBuilder& command, std::filesystem::path& target) {
-    command.text("--environment-file", "FILE", target, "",
-                 fmt::format("Equirectangular panorama of light from around, .hdr or .exr, up to "
-                             "{}x{}",
-                             environment::kMaxPanoramaWidth_px,
-                             environment::kMaxPanoramaWidth_px / 2));
+    command.text(
+        "--environment-file", "FILE", target, "",
+        fmt::format("Equirectangular panorama for the environment, .hdr or .exr, up to {}x{}",
+                    environment::kMaxPanoramaWidth_px, environment::kMaxPanoramaWidth_px / 2));
 }
 
 void checkServe(const ServeOptions& options) {
@@ -133,9 +133,9 @@ void finish(CommandBuilder& command,
             Targets& targets,
             Configured configured = Configured::kByCommandLine) {
     command.name("--log-level", targets.log_level, kLogLevelNames,
-                 textOf(kLogLevelNames, default_level), "Least of what goes to stderr");
+                 textOf(kLogLevelNames, default_level), "Lowest level of log lines on stderr");
     command.name("--log-format", targets.log_format, kLogFormatNames,
-                 "Its lines: words and key=value, or a JSON object each");
+                 "Format of log lines: text with key=value, or JSON objects");
     command.cli().callback([command, &options, default_level, &targets, configured] {
         Configuration configuration;
         if (configured == Configured::kBySources) {
@@ -148,8 +148,9 @@ void finish(CommandBuilder& command,
 }
 
 void addLensShift(CommandBuilder& command, std::optional<glm::dvec2>& target) {
-    command.value("--lens-shift", "X,Y", target, parseLensShift, "the camera's",
-                  "The picture's middle off the view axis, right and up, in half pictures");
+    command.value(
+        "--lens-shift", "X,Y", target, parseLensShift, "the camera's",
+        "Shift of the picture's centre off the view axis, right and up, in half pictures");
 }
 
 // A switch that takes a word, as it did before there was a table.
@@ -190,21 +191,19 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
 
 void addServe(CLI::App& app, Targets& targets) {
     auto& options = targets.serve;
-    CommandBuilder command(app, "serve",
-                           "Serve a scene to browsers: the page, /healthz and /ws\n\n"
-                           "  froxel serve                                    the built-in hall, "
-                           "at http://127.0.0.1:8080\n"
-                           "  froxel serve --scene model.glb --lights 5000    a model of your own, "
-                           "and more lights\n"
-                           "  froxel serve --scenes models/ --address 0.0.0.0 --allow-host NAME\n"
-                           "                                                  a folder of them, "
-                           "for others\n");
+    CommandBuilder command(
+        app, "serve",
+        "Serve a scene to browsers: the page, /healthz and /ws\n\n  froxel serve                   "
+        "                 the built-in hall, at http://127.0.0.1:8080\n  froxel serve --scene "
+        "model.glb --lights 5000    a model of your own, and more lights\n  froxel serve --scenes "
+        "models/ --address 0.0.0.0 --allow-host NAME\n                                             "
+        "     a folder of models, for other computers\n");
     addServeAddresses(command, options);
     command.group("Addresses and access");
     addSceneOption(command, options.scene, options.scene);
     addScenesFolder(command, options.scenes,
-                    "Folder whose glTF and GLB files viewers may go over to; what changes in it is "
-                    "noticed, and on SIGHUP it is looked at again");
+                    "Folder of glTF and GLB files that viewers may switch to. The server notices "
+                    "changes, and reads the folder again on SIGHUP");
     addSceneChoices(command, options.choices);
     addEnvironmentFile(command, options.environment_file);
     command.group("Scenes");
@@ -219,7 +218,7 @@ void addServe(CLI::App& app, Targets& targets) {
 
 void addOutputs(CommandBuilder& command, RenderOptions& options) {
     command.value("--out", "FILE", options.out, parsePicturePath, "",
-                  "Last frame: .png, .jpg, or .exr or .pfm (linear, before the exposure)");
+                  "File for the last frame: .png, .jpg, or .exr or .pfm (linear, before exposure)");
     auto& encoding = options.encoding;
     for (const auto& row : settings::kEncodingRows) {
         if (row.name == "quality" || row.name == "chroma") { // a file is no stream
@@ -228,11 +227,12 @@ void addOutputs(CommandBuilder& command, RenderOptions& options) {
     }
     command.number("--frames", options.frame_count, kFramesRange, "Frames to draw, 1/30 s apart");
     command.number("--warmup", options.warmup_count, kWarmupRange,
-                   "Frames drawn before those and not counted");
+                   "Frames drawn first and not counted");
     command.cli().add_flag("--keep-surfaces", options.keep_surfaces,
-                           "Keep depth and G-buffer from frame to frame where nothing that is in "
-                           "them changes, as serve does; else each frame is drawn whole");
-    command.text("--timings", "FILE", options.timings, "", "JSON: times of passes and frames");
+                           "Reuse depth and G-buffer of the previous frame while they would not "
+                           "change, as serve does. Otherwise each frame is drawn in full");
+    command.text("--timings", "FILE", options.timings, "",
+                 "File for the times of passes and frames, as JSON");
     command.group("Picture and files");
 }
 
@@ -253,24 +253,25 @@ void addRender(CLI::App& app, Targets& targets) {
     command.value("--size", "WxH", settings.size, parseSize, textOf(settings.size),
                   sizeHelp("Picture"));
     command.value("--camera", "CAMERA", options.camera, parseCamera, "the scene's first",
-                  "Its name, or \"ex,ey,ez;tx,ty,tz;fov\" in metres and degrees");
+                  "Name of a scene camera, or \"ex,ey,ez;tx,ty,tz;fov\" in metres and degrees");
     addLensShift(command, options.lens_shift);
-    command.value("--grid-camera", "CAMERA", options.grid_camera, parseCamera, "the view's",
-                  "Whose cluster grid --debug-view cluster_wires shows, as --camera");
+    command.value(
+        "--grid-camera", "CAMERA", options.grid_camera, parseCamera, "the view's",
+        "Camera whose cluster grid --debug-view cluster_wires shows, in the form of --camera");
     addOutputs(command, options);
     finish(command, options, LogLevel::kWarn, targets);
 }
 
 void addBenchMethod(CommandBuilder& command, BenchOptions& options) {
     command.number("--seconds-per-row", options.seconds_per_row, kSecondsPerRowRange,
-                   "Time for the frames of one row; rows that need more are left out, and said");
+                   "Time for the frames of one row; rows that need more are skipped and listed");
     command.value("--error-size", "WxH", options.error_size, parseSize, textOf(options.error_size),
-                  sizeHelp("Picture that errors are taken from"));
+                  sizeHelp("Size of the pictures for errors"));
     command.number("--r1-pairs", options.r1_pairs_limit, kPairsRange,
                    "2e9 on a CPU device, 1e11 on a GPU",
-                   "(Light, pixel) pairs that a row's exactness check may cost");
+                   "Maximum of (light, pixel) pairs for the exactness check of a row");
     command.number("--r2-pairs", options.r2_pairs_limit, kPairsRange, "1e9 a hardware thread",
-                   "The same of the reference in double on the host");
+                   "Maximum of (light, pixel) pairs for the reference in double");
 }
 
 void addBench(CLI::App& app, Targets& targets) {
@@ -287,12 +288,12 @@ void addBench(CLI::App& app, Targets& targets) {
     command.cli().add_flag("--list", options.list, "Print the presets");
     command.cli()
         .add_option("--compare", options.compare,
-                    "Say which rows of B differ from A's by more than the noise")
+                    "Print the rows of B that differ from A's by more than the noise")
         ->type_name("A.json B.json")
         ->expected(2);
     command.cli()
         .add_option("--join", options.join,
-                    "Write results of one device, scene and method as one, with --out and --report")
+                    "Join results of one device, scene and method, with --out and --report")
         ->type_name("FILE.json...")
         ->expected(1, 1000);
     addSceneOption(command, options.scene, options.scene);
@@ -301,7 +302,8 @@ void addBench(CLI::App& app, Targets& targets) {
     command.pipelineCache(options.device.pipeline_cache);
     command
         .text("--camera", "CAMERA", options.cameras, "the scene's first three",
-              "Stop of the camera path, as in render; repeatable, the first is timed")
+              "View of the camera path, in the form of render's --camera; repeatable, the first "
+              "one is timed")
         ->allow_extra_args(false)
         ->check([](const std::string& text) {
             const auto camera = parseCamera(text);
@@ -327,11 +329,11 @@ void addLoad(CLI::App& app, Targets& targets) {
 
 void addInfo(CLI::App& app, Targets& targets) {
     auto& options = targets.info;
-    CommandBuilder command(app, "info", "Print the device, and what a scene holds and needs");
+    CommandBuilder command(app, "info", "Print the device, and the content and needs of a scene");
     addSceneOption(command, options.scene, "none");
-    command.cli().add_option("FILE", options.scene, "The same; or a picture");
+    command.cli().add_option("FILE", options.scene, "Same as --scene; or a picture file");
     addScenesFolder(command, options.scenes,
-                    "Print what each glTF and GLB file below is, as a table, and nothing besides");
+                    "Print only a table of all glTF and GLB files in this folder");
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.cli().add_flag("--json", options.json, "Print JSON");
@@ -406,7 +408,7 @@ std::string unexpected(const CLI::App& app, const CLI::App* command, const std::
     }
     return option ? fmt::format("froxel {} has no option {}{}", command->get_name(),
                                 printable(name), hint)
-                  : fmt::format("froxel {} does not know what '{}' is for", command->get_name(),
+                  : fmt::format("froxel {}: unexpected argument '{}'", command->get_name(),
                                 printable(name));
 }
 

@@ -10,8 +10,8 @@ namespace froxel::app {
 inline void addProbeArguments(CommandBuilder& command, ProbeOptions& options) {
     constexpr settings::Range<double> kTimeoutRange{"timeout", 0.01, 3600.0};
     command.text("URL", "", options.url, options.url,
-                 "Of its admin address: /livez, /readyz or /startupz");
-    command.number("--timeout", options.timeout_s, kTimeoutRange, "Seconds to wait at most");
+                 "URL at its admin address: /livez, /readyz or /startupz");
+    command.number("--timeout", options.timeout_s, kTimeoutRange, "Longest wait in seconds");
 }
 
 } // namespace froxel::app

@@ -13,10 +13,10 @@ int runProbe(const ProbeOptions& options) {
         std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(options.timeout_s));
     const load::Target target = load::parseTarget(options.url).value();
     if (target.tls) {
-        throw StartupError({ErrorCode::kInvalidArgument,
-                            "'" + printable(options.url, 200) +
-                                "' asks for TLS, which a probe does not speak: the admin address "
-                                "has none"});
+        throw StartupError(
+            {ErrorCode::kInvalidArgument,
+             "'" + printable(options.url, 200) +
+                 "' uses https; a probe supports only http, because the admin address has no TLS"});
     }
     const load::ProbeAnswer answer = load::probe(target, timeout).value();
     std::printf("%u %s\n", answer.status, answer.line.c_str());

@@ -30,7 +30,7 @@ struct Finder {
             names += (names.empty() ? "" : ", ") + printable(camera.name);
         }
         return Error{ErrorCode::kInvalidArgument,
-                     fmt::format("--camera: '{}' is no camera of this scene; it has {}",
+                     fmt::format("--camera: '{}' is not a camera of this scene; it has {}",
                                  printable(name), names.empty() ? "none" : names)};
     }
 };

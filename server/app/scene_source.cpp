@@ -42,13 +42,13 @@ Result<uint32_t> findByName(const std::string& wanted,
         return *number - 1;
     }
     return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("{}: '{}' is no {} of this scene; it has {}", option,
+                 fmt::format("{}: '{}' names no {} of this scene; it has {}", option,
                              printable(wanted), what, scene::numberedList(names))};
 }
 
 Result<scene::Scene> makeHall(const ProgressReport& report) {
     if (!report({"building the hall", 0})) {
-        return Error{ErrorCode::kCancelled, "the hall: nobody wants it any more"};
+        return Error{ErrorCode::kCancelled, "the hall: cancelled, because nobody waits for it"};
     }
     return builtin_scene::makeHall();
 }

@@ -34,8 +34,9 @@ Result<std::string> parseAdvertise(const std::string& text) {
             return text;
         }
     }
-    return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("'{}' is not none or a WebSocket's URL, such as wss://host/ws", text)};
+    return Error{
+        ErrorCode::kInvalidArgument,
+        fmt::format("'{}' is neither none nor a WebSocket URL, such as wss://host/ws", text)};
 }
 
 } // namespace
@@ -43,9 +44,9 @@ Result<std::string> parseAdvertise(const std::string& text) {
 void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
     command.neverEmpty(command.text(
         "--config", "FILE", options.config, "",
-        "TOML file of options by their long names, such as max-sessions = 8. Each is also a "
-        "variable, FROXEL_MAX_SESSIONS. The command line wins over the environment, that "
-        "over the file"));
+        "TOML file with options by their long names, such as max-sessions = 8. Each option is also "
+        "an environment variable, such as FROXEL_MAX_SESSIONS. The command line overrides the "
+        "environment, and the environment overrides the file"));
     command.neverEmpty(command.text("--address", "IP", options.address, options.address,
                                     "IPv4 or IPv6 to listen on"));
     command.number("--port", options.port, kPortRange, "TCP port, 0 for any free one");
@@ -59,14 +60,14 @@ void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
               "Another site whose pages may connect, such as https://example.org; repeatable")
         ->allow_extra_args(false)
         ->check([](const std::string& origin) {
-            return net::isOrigin(origin)
-                       ? std::string()
-                       : "'" + printable(origin) + "' is no origin, such as https://example.org";
+            return net::isOrigin(origin) ? std::string()
+                                         : "'" + printable(origin) +
+                                               "' is not an origin, such as https://example.org";
         });
     command
         .text("--trusted-proxies", "NETWORK", options.trusted_proxies, "",
-              "Proxies whose X-Forwarded-For says from where a viewer comes, such as 10.0.0.0/8; "
-              "several with commas, or repeatable")
+              "Proxies whose X-Forwarded-For header gives the viewer's address, such as "
+              "10.0.0.0/8; comma-separated, or repeatable")
         ->allow_extra_args(false)
         ->delimiter(',')
         ->check([](const std::string& network) {
@@ -75,87 +76,91 @@ void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
         });
     command
         .text("--allow-host", "NAME", options.host_names, "",
-              "Name that requests may be addressed to, besides localhost and IP addresses; "
-              "repeatable. Without: any, but at a loopback address none")
+              "Host name that requests may use, besides localhost and IP addresses; repeatable. "
+              "Default: any name, but no name at a loopback address")
         ->allow_extra_args(false)
         ->check([](const std::string& text) {
             return net::isHostName(text)
                        ? std::string()
-                       : fmt::format("'{}' is not a host's name alone, such as froxel.example.org",
+                       : fmt::format("'{}' is not a plain host name, such as froxel.example.org",
                                      text);
         });
-    command.neverEmpty(command.text(
-        "--token-file", "FILE", options.token_file, "",
-        "Lets in who sends one of its tokens, one a line; read again on SIGHUP, and who has "
-        "none of them any more is sent away"));
     command.neverEmpty(
-        command.text("--admin-token-file", "FILE", options.admin_token_file, "",
-                     "A POST at the admin address must show one of its tokens as a bearer; beyond "
-                     "loopback none is answered without. Read again on SIGHUP"));
+        command.text("--token-file", "FILE", options.token_file, "",
+                     "File of tokens, one in each line; only viewers who send one get in. SIGHUP "
+                     "reads it again and disconnects viewers whose token is gone"));
+    command.neverEmpty(command.text("--admin-token-file", "FILE", options.admin_token_file, "",
+                                    "File of bearer tokens for POST requests at the admin address; "
+                                    "required beyond loopback. SIGHUP reads it again"));
     command.neverEmpty(
         command.text("--tls-cert", "FILE", options.tls_certificate, "",
-                     "Certificate with its chain, PEM, for https and wss; read again on SIGHUP"));
-    command.neverEmpty(command.text("--tls-key", "FILE", options.tls_key, "", "Its key, PEM"));
+                     "PEM certificate with its chain, for https and wss; SIGHUP reads it again"));
+    command.neverEmpty(
+        command.text("--tls-key", "FILE", options.tls_key, "", "Key of the certificate, PEM"));
     command.cli().add_flag("--agones", options.agones,
-                           "Tell Agones' SDK at $AGONES_SDK_HTTP_PORT of this host, 9358 by "
-                           "default, of readiness, health, sessions and the end");
+                           "Report readiness, health, sessions and shutdown to Agones' SDK at port "
+                           "$AGONES_SDK_HTTP_PORT of this host (9358 by default)");
 }
 
 void addServeLimits(CommandBuilder& command, ServeOptions& options) {
     using Defaults = session::SessionDefaults;
     command.number("--max-sessions", options.sessions_max, kSessionsRange,
-                   "Sessions at once; all viewers of a room share one");
+                   "Maximum number of sessions; all viewers of a room share one");
     command.number("--session-memory", options.memory.session_mib, kSessionMemoryRange,
                    fmt::format("{} on a CPU device, {} on a GPU", kCpuSessionMemory_mib,
                                kGpuSessionMemory_mib),
-                   "MiB that a session's pictures may take; larger ones are refused");
+                   "MiB for the pictures of one session; larger pictures are refused");
     command.number("--device-memory", options.memory.device_mib, kDeviceMemoryRange,
                    fmt::format("{} of the host's or its container's on a CPU device, {} of a GPU's",
                                kHostMemoryShare, kGpuMemoryShare),
-                   "MiB that the scenes and all sessions may take");
-    command.number("--scene-memory", options.memory.scene_mib, kDeviceMemoryRange,
-                   fmt::format("{} of --device-memory", kSceneMemoryShare),
-                   "MiB of it that scenes of --scenes may take together; those that nobody looks "
-                   "at leave for others");
+                   "MiB for all scenes and sessions together");
+    command.number(
+        "--scene-memory", options.memory.scene_mib, kDeviceMemoryRange,
+        fmt::format("{} of --device-memory", kSceneMemoryShare),
+        "MiB of --device-memory for the scenes of --scenes together; unused scenes leave first");
     command.number(
         "--min-fps", options.min_rate_hz, kMinRateRange,
         byDevice([](const Defaults& d) { return fmt::format("{}", d.min_rate_hz); }),
-        "Refuse a session that would take active ones below these frames a second; 0: none");
+        "Refuse a session that would push active ones below this frame rate; 0: refuse none");
     command.number("--frame-limit", options.frame_limit_s, kFrameLimitRange,
-                   "Seconds of the device's time that one picture may take by its estimate; "
-                   "longer ones are drawn smaller");
+                   "Seconds of device time that one picture may take, as estimated; longer ones "
+                   "are drawn smaller");
     command.number("--resume-grace", options.resume_grace_s, kGraceRange,
-                   "Seconds that a lost connection's session waits for it");
+                   "Seconds that a session waits for its lost viewer");
     command.number("--max-sessions-per-address", options.sessions_per_address, kAccountRange,
                    "half of --max-sessions",
-                   "Sessions opened from one address (IPv6: a /64), which 127.0.0.1 and ::1 are "
-                   "exempt from; 0: no matter");
+                   "Maximum number of sessions of one address (IPv6: a /64); 127.0.0.1 and ::1 are "
+                   "exempt; 0: no limit");
     command.number("--max-sessions-per-token", options.sessions_per_token, kAccountRange,
-                   "Sessions opened with one token; 0: no matter");
+                   "Maximum number of sessions of one token; 0: no limit");
     command.number("--max-viewers-per-room", options.viewers_per_room, kRoomRange,
-                   "Viewers of one room, half of them from one address (IPv6: a /64), which "
-                   "127.0.0.1 and ::1 are exempt from; 0: no matter");
+                   "Maximum number of viewers of one room, and half as many from one address "
+                   "(IPv6: a /64); 127.0.0.1 and ::1 are exempt; 0: no limit");
     command.number("--max-stills-per-minute", options.stills_per_minute, kStillsRange,
-                   "Pictures of /render that one token or address may have drawn, which 127.0.0.1 "
-                   "and ::1 are exempt from; 0: no matter");
+                   "Maximum number of /render pictures drawn for one token or address; 127.0.0.1 "
+                   "and ::1 are exempt; 0: no limit");
     command.number("--paused-seconds", options.paused_s, kRestRange,
-                   "A session whose viewers are all paused, or take no pictures, for so long ends "
-                   "when another needs its place");
+                   "Seconds after which a session gives its place to a newcomer, if all its "
+                   "viewers are paused or acknowledge no frames");
     command.number("--idle-seconds", options.idle_s, kRestRange,
-                   "The same where they do nothing and their picture stands");
+                   "Seconds after which a session gives its place to a newcomer, if its viewers do "
+                   "nothing and the picture is static");
     command.number("--forget-seconds", options.forget_s, kRestRange,
-                   "A session that rests in either way for so long ends anyway; 0: never");
-    command.number("--control-idle-seconds", options.control_idle_s, kRestRange,
-                   "Control of a room that is not used for so long goes to who asks; 0: never");
+                   "Seconds after which such an idle session ends in any case; 0: never");
+    command.number(
+        "--control-idle-seconds", options.control_idle_s, kRestRange,
+        "Seconds after which unused control of a room goes to a viewer who asks; 0: never");
     command.number("--max-connections", options.connections_max, kConnectionsRange,
-                   "Connections of any kind at once");
-    command.number("--drain-seconds", options.drain_s, kDrainRange,
-                   "From SIGTERM or POST /drain to the end, for viewers to go elsewhere");
-    command.value("--advertise", "URL|none", options.advertise, parseAdvertise, "none",
-                  "WebSocket that viewers are sent to meanwhile; none: this address again");
+                   "Maximum number of connections of any kind");
+    command.number(
+        "--drain-seconds", options.drain_s, kDrainRange,
+        "Seconds from SIGTERM or POST /drain to the end, in which viewers move elsewhere");
+    command.value(
+        "--advertise", "URL|none", options.advertise, parseAdvertise, "none",
+        "WebSocket URL that viewers of a draining server move to; none: this address again");
     command.number("--watchdog-seconds", options.watchdog_s, kWatchdogRange,
                    fmt::format("{} on a CPU device, {} on a GPU", kCpuWatchdog_s, kGpuWatchdog_s),
-                   "End the process when drawing has stood still for so long; 0: never");
+                   "Seconds of stalled drawing after which the process ends; 0: never");
 }
 
 } // namespace froxel::app

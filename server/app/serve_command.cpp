@@ -45,8 +45,8 @@ void tellMemory(const render::MemoryLimits& limits, uint32_t sessions_max) {
                  limits.session_bytes / kMib);
     if (limits.device_bytes / sessions_max < limits.session_bytes) {
         spdlog::warn("event=memory_overcommitted device_mib={} session_mib={} sessions={} "
-                     "advice=\"lower --session-memory or --max-sessions, or raise "
-                     "--device-memory: a session may find none left\"",
+                     "advice=\"lower --session-memory or --max-sessions, or raise --device-memory: "
+                     "a session may find no memory left\"",
                      limits.device_bytes / kMib, limits.session_bytes / kMib, sessions_max);
     }
 }
@@ -102,7 +102,8 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
 fs::path webRootOf(const ServeOptions& options) {
     auto root = findWebRoot(options.web_root);
     if (root.empty()) {
-        spdlog::warn("no page found; ./deploy/build.sh makes it, --web-root names another");
+        spdlog::warn("the built page was not found; run ./deploy/build.sh, or name its folder with "
+                     "--web-root");
     }
     return root;
 }
@@ -117,7 +118,7 @@ net::AgonesOptions agonesOptions(const ServeOptions& options) {
         if (!number || *number == 0) {
             throw StartupError({ErrorCode::kInvalidArgument,
                                 std::string(kVariable) + ": '" + printable(port) +
-                                    "' is no port; right is a number from 1 to 65535"});
+                                    "' is not a port; expected a number from 1 to 65535"});
         }
         agones.port = static_cast<uint16_t>(*number);
     }

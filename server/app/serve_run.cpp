@@ -40,7 +40,7 @@ constexpr Seconds kFolderRest{1};
 ServeRun::ServeRun(ServeRunOptions options)
     : options_(std::move(options)),
       pool_(options_.encoder_count,
-            options_.server.lobby.sessions_max + options_.server.stills.seats),
+            options_.server.lobby.sessions_max + options_.server.stills.workers),
       scenes_(makeScenes()), server_(std::make_unique<net::Server>(options_.server)),
       loop_(pool_, loopOptions()) {
     if (options_.catalogue) {
@@ -85,7 +85,7 @@ std::shared_ptr<stream::SceneHost> ServeRun::makeScenes() {
                          const ProgressReport& report) -> Result<stream::ReadScene> {
         const auto offered = options_.catalogue->find(id);
         if (!offered) {
-            return Error{ErrorCode::kScene, "the file is not there any more"};
+            return Error{ErrorCode::kScene, "the file no longer exists"};
         }
         auto read = read_other_(*offered, report);
         if (read) {

@@ -23,8 +23,8 @@ struct OffWords {
 };
 constexpr std::array kOffWords{
     OffWords{"animate", "Keeps the seeded lights where they are"},
-    OffWords{"scene_lights", "Leaves out the lights that the scene's file has"},
-    OffWords{"animation_playing", "Holds the scene's animation at its beginning"},
+    OffWords{"scene_lights", "Turns off the lights of the scene's file"},
+    OffWords{"animation_playing", "Stops the scene's animation at its beginning"},
 };
 
 std::string_view offHelp(const settings::Setting& setting) {
@@ -99,13 +99,13 @@ void addLightPlaces(CommandBuilder& command,
                     settings::Lights& lights,
                     std::filesystem::path& file) {
     command.value("--light-box", "BOX", lights.box, parseBox, "the scene's bounds",
-                  "Where they move: \"x,y,z;x,y,z\" in metres, least corner first");
+                  "Box in which the lights move: \"x,y,z;x,y,z\" in metres, smallest corner first");
     const auto parse = [&file](const std::string& text) {
         file = text;
         return readLightSet(file);
     };
     command.value("--light-set", "FILE", lights.placed, parse, "none",
-                  "Lights with places of their own, as the page saves them");
+                  "Placed lights, in a file that the page saves");
 }
 
 } // namespace

@@ -26,7 +26,8 @@ void finishResults() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         const std::string reason =
             errno != 0 ? ": " + std::generic_category().message(errno) : std::string();
-        throw StartupError({ErrorCode::kIo, "standard output took not all of the result" + reason});
+        throw StartupError(
+            {ErrorCode::kIo, "standard output did not accept the whole result" + reason});
     }
 }
 

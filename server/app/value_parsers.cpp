@@ -23,9 +23,9 @@ Result<CameraChoice> parseCamera(std::string_view text) {
     }
     return Error{
         ErrorCode::kInvalidArgument,
-        fmt::format("'{}' is not a scene camera's name or \"ex,ey,ez;tx,ty,tz;fov\": eye and "
-                    "another point that it looks at in metres ({} to {}), vertical field of view "
-                    "in degrees ({} to {}), such as \"-7,2,0;0,2,0;45\"",
+        fmt::format("'{}' is neither a scene camera's name nor \"ex,ey,ez;tx,ty,tz;fov\". Eye and "
+                    "target are in metres ({} to {}), and fov is the vertical angle in degrees "
+                    "({} to {}). For example: \"-7,2,0;0,2,0;45\"",
                     printable(text), settings::kPositionRange.min, settings::kPositionRange.max,
                     settings::kFovRange.min, settings::kFovRange.max)};
 }

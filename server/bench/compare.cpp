@@ -167,7 +167,7 @@ Comparison compareValid(const Json& a, const Json& b) {
     const auto rows_b = rowsOf(b, toldBy(a), left_out);
     if (!left_out.empty()) {
         comparison.warnings.push_back(
-            fmt::format("told by one alone, and at its default: {}", fmt::join(left_out, ", ")));
+            fmt::format("only in one result, with its default: {}", fmt::join(left_out, ", ")));
     }
     for (const auto& [key, row] : rows_a) {
         const auto other = rows_b.find(key);
@@ -196,7 +196,7 @@ Result<Comparison> compareReports(const Json& a, const Json& b) {
     for (const auto* report : {&a, &b}) {
         if (!report->is_object() || report->value("schema", Json()) != kSchema) {
             return Error{ErrorCode::kInvalidArgument,
-                         fmt::format("the {} file is no {} result",
+                         fmt::format("the {} file is not a {} result",
                                      report == &a ? "first" : "second", kSchema)};
         }
     }

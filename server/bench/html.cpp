@@ -21,8 +21,9 @@ Result<std::string> fillReport(std::string_view page, const nlohmann::ordered_js
     const size_t at = page.find(kResultsPlace);
     if (at == std::string_view::npos ||
         page.find(kResultsPlace, at + 1) != std::string_view::npos) {
-        return Error{ErrorCode::kIo,
-                     fmt::format("the report's template has not one '{}'", kResultsPlace)};
+        return Error{
+            ErrorCode::kIo,
+            fmt::format("the report's template does not contain exactly one '{}'", kResultsPlace)};
     }
     constexpr std::string_view kNull = "null";
     const size_t null_at = at + kResultsPlace.find(kNull);

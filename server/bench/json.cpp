@@ -21,15 +21,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kR1 = "every light, in the same way, on the same device: naive for the "
-                            "forward renderers, for the deferred ones their own G-buffer with the "
-                            "loop over all lights; anything but 0 is a defect";
-constexpr const char* kR2 = "shaded in double on the host from the triangles that the device sees, "
-                            "by formulas and texture filtering of its own, with nothing traded for "
-                            "speed";
-constexpr const char* kLightFormula = "on every axis a triangle wave through the box, its phase "
-                                      "and speed (0.2 to 1.5 m/s in all) from "
-                                      "a hash of seed and index: a closed formula of time";
+constexpr const char* kR1 =
+    "every light, on the same device: naive for forward renderers; for deferred renderers their "
+    "own G-buffer with the loop over all lights. Any value except 0 is a defect";
+constexpr const char* kR2 = "shaded in double on the host, from the triangles that the device "
+                            "sees, with independent formulas and texture filtering";
+constexpr const char* kLightFormula =
+    "on every axis a triangle wave through the box. A hash of seed and index gives its phase and "
+    "speed (0.2 to 1.5 m/s in total). The position is a closed-form function of time";
 
 Json toJson(const settings::Size& size) {
     return {size.width_px, size.height_px};

@@ -27,7 +27,7 @@ Sweep lightCount(const Base& base) {
                 "lights",
                 "",
                 Axis::kLog,
-                "The radius stays, so lights overlap more the more there are.",
+                "The radius is constant, so more lights overlap more.",
                 {}};
     for (const auto& way : kWays) {
         for (const uint32_t count : kCounts) {
@@ -90,7 +90,7 @@ Sweep grid(const Base& base) {
                                    settings::GridSize{64, 36, 32}, settings::GridSize{128, 72, 64}};
     Sweep sweep{"grid",     "Frame time against the grid",
                 "clusters", "",
-                Axis::kLog, "Lists are always used. The automatic grid stands at 0.",
+                Axis::kLog, "Lists are always used. The automatic grid is at 0.",
                 {}};
     for (const auto& way : kListWays) {
         sweep.rows.push_back(rowOf(base, way, "auto", 0, [](auto& s) {
@@ -169,7 +169,7 @@ Sweep toon(const Base& base) {
                   "renderer",
                   "",
                   Axis::kCategory,
-                  "Beside the same renderer without a ramp.",
+                  "Compared with the same renderer without a ramp.",
                   {}},
                  base, ways);
 }
@@ -193,7 +193,7 @@ Sweep renderer(const Base& base) {
 
 Sweep cameraPath(const Base& base) {
     Sweep sweep{"view",          "Frame time along the camera path", "view", "",
-                Axis::kCategory, "Every stop of the path.",          {}};
+                Axis::kCategory, "Every view of the path.",          {}};
     for (const auto& way : kListWays) {
         for (size_t stop = 0; stop < base.views.size(); ++stop) {
             auto row = rowOf(base, way, "", static_cast<double>(stop),
@@ -209,11 +209,11 @@ Sweep cameraPath(const Base& base) {
 // A viewer who looks: the camera rests, lights move.
 Sweep rest(const Base& base) {
     Sweep sweep{"rest",
-                "A camera at rest before lights that move",
+                "A still camera before moving lights",
                 "surfaces",
                 "",
                 Axis::kCategory,
-                "Drawn anew in each frame, or kept as serve keeps them.",
+                "Surfaces are drawn in each frame, or reused as serve does.",
                 {}};
     for (const auto& way : kWays) {
         for (const bool keep : {false, true}) {
@@ -257,7 +257,7 @@ Sweep debugViews(const Base& base) {
                 "view",
                 "",
                 Axis::kCategory,
-                "Most take the place of the lighting.",
+                "Most of them replace the lighting.",
                 {}};
     for (size_t view = 0; view < settings::kDebugViewNames.size(); ++view) {
         sweep.rows.push_back(rowOf(base, kDeferred, std::string(settings::kDebugViewNames[view]),

@@ -46,7 +46,7 @@ Sweep gbufferSweep(const Base& base) {
                 "layout",
                 "",
                 Axis::kCategory,
-                "Normals and positions kept with less precision, or as the seeds had them.",
+                "Normals and positions stored with less precision, or in other layouts.",
                 {}};
     for (const auto& layout : gbufferLayouts()) {
         const auto label = nameOf(settings::kNormalEncodingNames, layout.normal) + ", " +
@@ -67,7 +67,7 @@ Sweep resolutionScaleSweep(const Base& base) {
                 "scale",
                 "",
                 Axis::kLinear,
-                "Bilinear, as the page's canvas does it.",
+                "Scaled bilinearly, like the page's canvas.",
                 {}};
     for (const auto& [label, value] : {Scale{"1/2", 0.5}, Scale{"3/4", 0.75}, Scale{"1", 1.0}}) {
         auto row = rowOf(base, kDeferred, label, value,
@@ -97,11 +97,11 @@ Sweep cutoffSweep(const Base& base) {
 
 Sweep compensationSweep(const Base& base) {
     Sweep sweep{"compensation",
-                "Lights cut off early, and what they lost given back",
+                "Lights cut off early, with compensation",
                 "cutoff",
                 "",
                 Axis::kLog,
-                "A light that ends early is brighter by what it lost, or not.",
+                "A light that ends early is brightened by the light that it lost, or not.",
                 {}};
     for (const bool compensated : {false, true}) {
         for (const float value : {0.2F, 0.1F, 0.05F, 0.02F, 0.01F}) {
@@ -118,14 +118,10 @@ Sweep compensationSweep(const Base& base) {
 }
 
 Sweep listCapSweep(const Base& base) {
-    Sweep sweep{
-        "list_cap",
-        "Lists capped by importance",
-        "cap",
-        "lights",
-        Axis::kLog,
-        "R1 is the error of the cap: the picture of every light is what it is held against.",
-        {}};
+    Sweep sweep{"list_cap", "Lists capped by importance",
+                "cap",      "lights",
+                Axis::kLog, "R1 is the error of the cap, compared with the picture of every light.",
+                {}};
     for (const auto& way : kListWays) {
         for (const uint32_t cap : {4U, 8U, 16U, 32U, 64U, 128U, 256U}) {
             sweep.rows.push_back(rowOf(base, way, fmt::format("cap {}", cap), cap, [&](auto& s) {
@@ -140,7 +136,7 @@ Sweep listCapSweep(const Base& base) {
 Sweep bloomSweep(const Base& base) {
     Sweep sweep{
         "bloom", "Ways of bloom", "kind",
-        "",      Axis::kCategory, "R2 is the Gaussian that each of them comes to, in double.",
+        "",      Axis::kCategory, "R2 is the Gaussian that each method approximates, in double.",
         {}};
     for (size_t kind = 0; kind < settings::kBloomKindNames.size(); ++kind) {
         const auto value = static_cast<settings::BloomKind>(kind);
@@ -157,8 +153,8 @@ Sweep antialiasingSweep(const Base& base) {
                 "kind",
                 "",
                 Axis::kCategory,
-                "R2 is here the mean of 64 samples a pixel; fxaa shows in what is shown alone. "
-                "mean16 takes 16 frames; its times are one frame's.",
+                "R2 is the mean of 64 samples for each pixel. fxaa affects only the displayed "
+                "picture. mean16 draws 16 frames; its times are those of one frame.",
                 {}};
     for (size_t kind = 0; kind < settings::kAntialiasingNames.size(); ++kind) {
         const auto value = static_cast<settings::Antialiasing>(kind);
@@ -171,14 +167,14 @@ Sweep antialiasingSweep(const Base& base) {
 }
 
 Sweep transparencySweep(const Base& base) {
-    Sweep sweep{"transparency",
-                "Ways of transparency",
-                "kind",
-                "",
-                Axis::kCategory,
-                "R2 is here up to 16 layers peeled by the device. For the built-in scene: --camera "
-                "Glass.",
-                {}};
+    Sweep sweep{
+        "transparency",
+        "Ways of transparency",
+        "kind",
+        "",
+        Axis::kCategory,
+        "R2 is up to 16 layers peeled by the device. For the built-in scene use --camera Glass.",
+        {}};
     const auto add = [&](settings::Transparency kind, std::optional<uint32_t> layers) {
         auto label = nameOf(settings::kTransparencyNames, kind);
         label += layers ? fmt::format(", {} layers", *layers) : "";
@@ -208,7 +204,8 @@ Sweep fogSweep(const Base& base) {
                 "volume",
                 "",
                 Axis::kCategory,
-                "R2 integrates lights along each ray, in double; each to be read beside no fog.",
+                "R2 integrates lights along each ray, in double. Compare each row with the one "
+                "without fog.",
                 {}};
     const auto add = [&](const std::string& label, const settings::Fog& fog) {
         sweep.rows.push_back(rowOf(base, kDeferred, label, static_cast<double>(sweep.rows.size()),
@@ -243,7 +240,7 @@ Sweep shadowSweep(const Base& base) {
                 "lights",
                 "",
                 Axis::kLinear,
-                "R2 asks by ray whether a light arrives; what differs lies at the shadows' edges.",
+                "R2 traces rays to the lights. Differences are at the edges of shadows.",
                 {}};
     for (const uint32_t size_px : {128U, 256U, 512U}) {
         for (const uint32_t count : {0U, 1U, 4U, 16U, 32U}) {
@@ -278,13 +275,14 @@ std::vector<settings::PlacedLight> areaLights(const settings::Camera& camera, ui
 }
 
 Sweep areaSweep(const Base& base) {
-    Sweep sweep{"area_lights",
-                "Rectangular area lights beside the others",
-                "lights",
-                "",
-                Axis::kLinear,
-                "R2 sums over each rectangle's parts: what differs is the highlight's fit.",
-                {}};
+    Sweep sweep{
+        "area_lights",
+        "Rectangular area lights beside other lights",
+        "lights",
+        "",
+        Axis::kLinear,
+        "R2 sums over the parts of each rectangle. The difference is the fit of the highlight.",
+        {}};
     for (const auto shading : {settings::ShadingModel::kPbr, settings::ShadingModel::kLambert}) {
         for (const uint32_t count : {0U, 1U, 4U, 16U}) {
             auto row =
@@ -304,13 +302,14 @@ Sweep areaSweep(const Base& base) {
 }
 
 Sweep environmentSweep(const Base& base) {
-    Sweep sweep{"environment",
-                "Light from around",
-                "light",
-                "",
-                Axis::kCategory,
-                "R2 has the same approximation in double; environment_error prices it.",
-                {}};
+    Sweep sweep{
+        "environment",
+        "Light from around",
+        "light",
+        "",
+        Axis::kCategory,
+        "R2 is the same approximation in double; environment_error measures the approximation.",
+        {}};
     for (const auto shading : {settings::ShadingModel::kPbr, settings::ShadingModel::kLambert}) {
         for (const auto light :
              {settings::EnvironmentLight::kOff, settings::EnvironmentLight::kStudio}) {
@@ -332,7 +331,7 @@ Sweep streamSweep(const Base& base) {
                 "quality",
                 "",
                 Axis::kLinear,
-                "The decoded picture against the one it encodes.",
+                "The decoded picture compared with the original.",
                 {}};
     for (const auto chroma : {settings::Chroma::k420, settings::Chroma::k444}) {
         for (const uint32_t quality : {30U, 50U, 70U, 80U, 90U, 95U}) {
@@ -351,8 +350,9 @@ Sweep smokeSweep(const Base& base) {
     auto small = base;
     small.settings.size = {96, 54};
     small.settings.lights.count = 30;
-    Sweep sweep{"smoke",         "A try of everything",         "row", "",
-                Axis::kCategory, "Too small to mean anything.", {}};
+    Sweep sweep{"smoke", "A try of everything", "row",
+                "",      Axis::kCategory,       "Too small for meaningful results.",
+                {}};
     const auto add = [&](Row row) {
         row.value = static_cast<double>(sweep.rows.size());
         sweep.rows.push_back(std::move(row));

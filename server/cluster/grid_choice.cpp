@@ -181,7 +181,7 @@ std::string rounded(double value) {
 
 std::string describe(const GridFacts& facts, const GridChoice& choice, const Expected& expected) {
     return "tiles of " + std::to_string(choice.memory.tile_px) + " pixels and " +
-           std::to_string(choice.memory.slices) + " slices: a pixel is expected to loop over " +
+           std::to_string(choice.memory.slices) + " slices: the expected loop of a pixel has " +
            rounded(expected.list_length) + " of " + std::to_string(facts.lights.light_count) +
            " lights";
 }
@@ -217,7 +217,7 @@ GridChoice chooseGrid(const GridFacts& facts, const GridMemory& previous) {
             kept.cost_ns <= kGridHysteresis * best_expected.cost_ns) {
             best = {.shape = shape, .memory = {previous.tile_px, previous.slices}};
             best_expected = kept;
-            reason = ", kept since no other would save a sixth of the time";
+            reason = ", unchanged, because no other grid would save a sixth of the time";
         }
     }
     best.memory.all_lights = previous.all_lights;
@@ -243,12 +243,13 @@ LoopChoice chooseLoop(const GridFacts& facts, double list_length, const GridMemo
     const double limit = previous.all_lights ? kLongList / hysteresis : kLongList * hysteresis;
     const std::string all = std::to_string(count);
     if (count <= few) {
-        return {true, all + " lights are so few that all are looped over as quickly as assigned"};
+        return {true,
+                all + " with so few lights, a loop over all of them is as fast as an assignment"};
     }
     const std::string length =
         "a pixel's list would hold about " + rounded(list_length) + " of " + all + " lights";
     if (share >= limit) {
-        return {true, length + ": too many for lists to pay, so all lights are looped over"};
+        return {true, length + ": too many for lists to pay, so each pixel loops over all lights"};
     }
     return {false, length};
 }

@@ -65,8 +65,8 @@ struct PeelStats {
 // Depths drawn from lights; none: no light had maps.
 struct ShadowStats {
     uint32_t light_count = 0;
-    uint32_t map_count = 0;  // six for a point light
-    uint32_t kept_count = 0; // of them, that hold what they would show
+    uint32_t map_count = 0;    // six for a point light
+    uint32_t reused_count = 0; // of them, that hold what they would show
     uint32_t draw_count = 0;
     uint32_t triangle_count = 0; // of casters, sent to the rasteriser
 };
@@ -101,7 +101,7 @@ struct FrameStats {
     double unpaced_us = 0;        // what it was to take of the device by unit costs of the start
     double host_us = 0;           // host work: culling, lights, assignment, recording
     double frame_us = 0;          // from submit call to readable pixels, on the host's clock
-    bool kept = false;            // depth and what else surfaces left are an earlier frame's
+    bool surfaces_reused = false; // depth, ids and G-buffer are those of an earlier frame
     uint32_t triangle_count = 0;  // triangles sent to the rasteriser
     uint32_t draw_count = 0;
     LightListStats lists;

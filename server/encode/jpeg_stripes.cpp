@@ -111,7 +111,7 @@ Result<std::vector<std::byte>> joinStripes(std::span<const std::vector<std::byte
         const auto& stripe = stripes[i];
         const auto layout = layoutOf(stripe);
         if (!layout) {
-            return Error{ErrorCode::kIo, "TurboJPEG made a stripe that is no baseline JPEG"};
+            return Error{ErrorCode::kIo, "TurboJPEG made a stripe that is not a baseline JPEG"};
         }
         const std::span<const std::byte> jpeg(stripe);
         if (i == 0) {

@@ -126,7 +126,7 @@ Result<void> Header::checkShape() {
         return read;
     }
     if (parts != 1) {
-        return Error{ErrorCode::kUnsupported, "has " + numberText(parts) + " parts; right is one"};
+        return Error{ErrorCode::kUnsupported, "has " + numberText(parts) + " parts; expected one"};
     }
     exr_storage_t storage{};
     exr_attr_box2i_t display{};
@@ -138,11 +138,11 @@ Result<void> Header::checkShape() {
         }
     }
     if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) {
-        return Error{ErrorCode::kUnsupported, "has deep pixels; right are scan lines or tiles"};
+        return Error{ErrorCode::kUnsupported, "has deep pixels; expected scan lines or tiles"};
     }
     if (std::memcmp(&display, &window_, sizeof display) != 0) {
         return Error{ErrorCode::kUnsupported,
-                     "has a data window that is not its display window; right is a whole panorama"};
+                     "has a data window that is not its display window; expected a whole panorama"};
     }
     return checkSize(int64_t{window_.max.x} - window_.min.x + 1,
                      int64_t{window_.max.y} - window_.min.y + 1);
@@ -155,7 +155,7 @@ Result<void> Header::checkChannels() {
     }
     if (list->num_channels > kMaxChannels) {
         return Error{ErrorCode::kCapacity, "has " + numberText(list->num_channels) +
-                                               " channels; right are up to " +
+                                               " channels; expected up to " +
                                                numberText(kMaxChannels)};
     }
     std::string names;
@@ -171,16 +171,16 @@ Result<void> Header::checkChannels() {
         colors += color ? 1 : 0;
         if (channel.pixel_type == EXR_PIXEL_UINT || channel.x_sampling != 1 ||
             channel.y_sampling != 1) {
-            return Error{ErrorCode::kUnsupported,
-                         "has a channel " + std::string(name) +
-                             " of integers or of fewer samples; right is half or float, for every "
-                             "pixel"};
+            return Error{
+                ErrorCode::kUnsupported,
+                "has a channel " + std::string(name) +
+                    " of integers or of fewer samples; expected half or float, for every pixel"};
         }
     }
     grey_ = grey_ && list->num_channels == 1;
     if (colors != 3 && !grey_) {
         return Error{ErrorCode::kUnsupported, "has the channels " + printable(names, 200) +
-                                                  "; right are R, G and B, or Y alone"};
+                                                  "; expected R, G and B, or Y alone"};
     }
     return {};
 }

@@ -77,7 +77,7 @@ Result<Panorama> readRadiance(std::span<const std::byte> file) {
     int channels = 0;
     Source header{file};
     if (stbi_info_from_callbacks(&kCallbacks, &header, &width, &height, &channels) == 0) {
-        return broken("right is FORMAT=32-bit_rle_rgbe, an empty line, then -Y HEIGHT +X WIDTH");
+        return broken("expected FORMAT=32-bit_rle_rgbe, an empty line, then -Y HEIGHT +X WIDTH");
     }
     if (const auto fits = checkSize(width, height); !fits) {
         return fits.error();

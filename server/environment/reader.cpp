@@ -48,7 +48,7 @@ void replaceImpossible(Panorama& panorama) {
                                         ", read as " + as);
         }
     };
-    warn(nans, "that are no numbers", "0");
+    warn(nans, "that are not numbers", "0");
     warn(negatives, "below 0", "0");
     warn(infinities, "that are infinite", numberText(kInfiniteRadiance));
 }
@@ -61,10 +61,10 @@ Result<void> checkSize(int64_t width_px, int64_t height_px) {
     };
     if (width_px < 2 || width_px != 2 * height_px) {
         return Error{ErrorCode::kInvalidArgument,
-                     is() + "right is an equirectangular panorama, twice as wide as high"};
+                     is() + "expected an equirectangular panorama, twice as wide as high"};
     }
     if (width_px > int64_t{kMaxPanoramaWidth_px}) {
-        return Error{ErrorCode::kCapacity, is() + "a panorama may have up to " +
+        return Error{ErrorCode::kCapacity, is() + "a panorama may have at most " +
                                                numberText(kMaxPanoramaWidth_px) + "x" +
                                                numberText(kMaxPanoramaWidth_px / 2)};
     }

@@ -26,7 +26,7 @@ size_t componentBytes(int type, const std::string& name) {
         return 4;
     default:
         fail(name + " has componentType " + std::to_string(type) +
-             "; right is 5120, 5121, 5122, 5123, 5125 or 5126");
+             "; expected 5120, 5121, 5122, 5123, 5125 or 5126");
     }
 }
 
@@ -43,7 +43,7 @@ size_t componentCount(int type, const std::string& name) {
     case TINYGLTF_TYPE_MAT4:
         return 16;
     default:
-        fail(name + " is a MAT2 or MAT3; right is SCALAR, VEC2, VEC3, VEC4 or MAT4");
+        fail(name + " is a MAT2 or MAT3; expected SCALAR, VEC2, VEC3, VEC4 or MAT4");
     }
 }
 
@@ -68,7 +68,7 @@ size_t sparseOffset(Offset offset, const std::string& name) {
     const auto bytes = static_cast<size_t>(static_cast<std::make_unsigned_t<Offset>>(offset));
     if (bytes > std::numeric_limits<int32_t>::max()) {
         fail(name + " has a sparse byteOffset of " + std::to_string(bytes) +
-             "; right is at most 2147483647");
+             "; expected at most 2147483647");
     }
     return bytes;
 }
@@ -190,7 +190,7 @@ void AccessorReader::substitute(const tinygltf::Accessor& accessor,
         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
         fail(name + " has sparse indices of componentType " + std::to_string(type) +
-             "; right is 5121, 5123 or 5125");
+             "; expected 5121, 5123 or 5125");
     }
     const size_t index_bytes = componentBytes(type, name);
     const auto index_view = views_.bytes(sparse.indices.bufferView, name + " sparse indices");
@@ -207,7 +207,7 @@ void AccessorReader::substitute(const tinygltf::Accessor& accessor,
             const auto target = static_cast<size_t>(value);
             if (target >= elements.count) {
                 fail(name + " sparse index " + std::to_string(i) + " is " + std::to_string(target) +
-                     "; right is below " + std::to_string(elements.count));
+                     "; expected below " + std::to_string(elements.count));
             }
             std::memcpy(elements.owned.data() + target * elements.element_bytes,
                         value_view.data() + value_offset + i * elements.element_bytes,
@@ -222,7 +222,7 @@ AccessorReader::elementsOf(int index, size_t components, const std::string& user
     const size_t own = componentCount(at(index, user).type, name);
     if (own != components) {
         fail(user + " uses accessor " + std::to_string(index) + " with " + std::to_string(own) +
-             " components; right is " + std::to_string(components));
+             " components; expected " + std::to_string(components));
     }
     return elements(index, user);
 }
@@ -251,7 +251,7 @@ AccessorReader::vectors(int index, const std::string& user, NotFinite not_finite
         if (not_finite == NotFinite::kRefused && !std::isfinite(value)) {
             fail(user + " accessor " + std::to_string(index) + " element " +
                  std::to_string(element) + " is " + numberText(value) +
-                 "; right is a finite number");
+                 "; expected a finite number");
         }
         result[element][static_cast<int>(component)] = value;
     });
@@ -279,7 +279,7 @@ std::vector<uint32_t> AccessorReader::indices(int index, const std::string& user
                                    type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
                                    type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
         fail(user + " uses accessor " + std::to_string(index) +
-             " as indices; right is SCALAR with componentType 5121, 5123 or 5125");
+             " as indices; expected SCALAR with componentType 5121, 5123 or 5125");
     }
     std::vector<uint32_t> result(source.count);
     withComponentType(type, [&](auto tag) {

@@ -141,11 +141,9 @@ void DeformationReader::readInfluences(VertexSource& source,
         }
     };
     tell(warning::kNotFinite, odd.not_finite,
-         "with weights of joints that are not finite; these joints do not move them");
-    tell(warning::kNoWeights, odd.without_weights,
-         "without weights of joints; they follow joint 0");
-    tell(warning::kWeightSum, odd.off_one,
-         "whose weights of joints do not sum to 1; they are scaled");
+         "with joint weights that are not finite; these joints do not move them");
+    tell(warning::kNoWeights, odd.without_weights, "without joint weights; they follow joint 0");
+    tell(warning::kWeightSum, odd.off_one, "whose joint weights do not sum to 1; they are scaled");
 }
 
 std::vector<glm::vec3> DeformationReader::deltasOf(const MorphTarget& target,
@@ -159,7 +157,7 @@ std::vector<glm::vec3> DeformationReader::deltasOf(const MorphTarget& target,
     const std::string name = user + " morph target " + semantic;
     if (accessors_.count(found->second, name) != count) {
         fail(name + " has " + std::to_string(accessors_.count(found->second, name)) +
-             " elements; right is " + std::to_string(count) + ", as POSITION has");
+             " elements; expected " + std::to_string(count) + ", as POSITION has");
     }
     morphed_vertices_.take(count, name);
     return accessors_.vectors<3>(found->second, name);
@@ -212,7 +210,7 @@ void DeformationReader::applyTargets(const std::vector<MorphTarget>& targets,
             if (!std::isfinite(stream[i].x + stream[i].y + stream[i].z)) {
                 fail(user + " morph target " + semantic + " takes element " + std::to_string(i) +
                      " out of range with the weight " + numberText(weight) +
-                     "; right are finite sums");
+                     "; expected finite sums");
             }
         }
     };

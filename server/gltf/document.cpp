@@ -58,7 +58,7 @@ void takeStrides(Json& root, Document& document, Warnings& warnings) {
             const size_t index = document.strides.size();
             warnings.add(warning::kByteStride, pointerTo("bufferViews", index) + "/byteStride",
                          thing("bufferView", index) + " has byteStride " + std::to_string(stride) +
-                             "; right is a multiple of 4 up to 252");
+                             "; expected a multiple of 4 up to 252");
         }
         document.strides.push_back(stride);
         view.erase("byteStride");
@@ -79,7 +79,7 @@ void checkAlignment(const tinygltf::Model& model, Warnings& warnings) {
         if (offset % static_cast<size_t>(size) != 0) {
             warnings.add(warning::kAlignment, pointerTo("accessors", i),
                          thing("accessor", i) + " begins at byte " + std::to_string(offset) +
-                             " of its buffer; right is a multiple of " + std::to_string(size));
+                             " of its buffer; expected a multiple of " + std::to_string(size));
         }
     }
 }
@@ -96,7 +96,7 @@ void takeIndices(Json& root, Document& document) {
             if (!indices.is_number()) {
                 fail(thing("mesh", document.indices.size() - 1) + " " +
                      thing("primitive", accessors.size()) +
-                     " has an object as indices; right is an accessor's number");
+                     " has an object as indices; expected an accessor's number");
             }
             accessors.push_back(indices.get<int>());
             primitive.erase("indices");
@@ -126,7 +126,7 @@ void takeClips(Json& root, Document& document, Warnings& warnings) {
                 const std::string pointer = pointerTo("animations", document.clips.size() - 1) +
                                             pointerTo("channels", clip.channels.size()) + "/target";
                 warnings.add(warning::kType, pointer,
-                             pointer + " is a number and moves nothing; right is an object");
+                             pointer + " is a number and has no effect; expected an object");
                 target = Json::object();
             }
             clip.channels.push_back(
@@ -169,7 +169,7 @@ void takeMaterialVariants(Json& root, Document& document, Warnings& warnings) {
         if (!variant.is_object()) {
             warnings.add(warning::kType, place,
                          place + "/" + std::to_string(names.size()) + " is " + variant.dump() +
-                             "; right is an object; it is one without a name");
+                             "; expected an object; it is one without a name");
         }
         names.push_back(variant.is_object() ? variant.value("name", "") : "");
     }
@@ -265,10 +265,10 @@ Document readDocument(SceneFolder& folder, ReadMemory& memory, Warnings& warning
                                                    static_cast<unsigned>(clean.size()), "");
     // It also drops single things that it cannot read, saying so only here.
     if (!parsed || !error.empty()) {
-        fail("it is no glTF 2.0 file: " + firstLine(error));
+        fail("it is not a glTF 2.0 file: " + firstLine(error));
     }
     if (document.indices.size() != document.model.meshes.size()) {
-        fail("it is no glTF 2.0 file: a mesh cannot be read");
+        fail("it is not a glTF 2.0 file: a mesh cannot be read");
     }
     checkAlignment(document.model, warnings);
     return document;

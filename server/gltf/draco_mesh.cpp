@@ -57,7 +57,7 @@ DracoCounts readDracoCounts(std::span<const std::byte> stream, const std::string
         header.encoder_type != draco::TRIANGULAR_MESH) {
         fail(user + " has a Draco stream of version " + std::to_string(header.version_major) + "." +
              std::to_string(header.version_minor) + " and type " +
-             std::to_string(header.encoder_type) + "; right is a mesh (1) of version 2.2");
+             std::to_string(header.encoder_type) + "; expected a mesh (1) of version 2.2");
     }
     buffer.set_bitstream_version(kBitstream);
     bool good = true;

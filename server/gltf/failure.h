@@ -32,7 +32,7 @@ class Unusable : public Failure {
 
 // Of a file of glTF 1.x, whichever way it tells so.
 [[noreturn]] inline void failOldVersion(const std::string& how) {
-    fail("it is a glTF 1.0 file (" + how + "); right is glTF 2.0, which gltf-pipeline makes of it");
+    fail("it is a glTF 1.0 file (" + how + "); expected glTF 2.0; gltf-pipeline converts it");
 }
 
 // "mesh 3 primitive 0": how messages name a thing of the file.

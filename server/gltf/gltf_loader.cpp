@@ -36,12 +36,12 @@ load(const std::filesystem::path& file, const ProgressReport& report, const Load
         warnings.moveInto(scene);
         return scene;
     } catch (const CalledOff&) {
-        return Error{ErrorCode::kCancelled,
-                     printable(file.filename().string(), 300) + ": nobody wants it any more"};
+        return Error{ErrorCode::kCancelled, printable(file.filename().string(), 300) +
+                                                ": cancelled, because nobody waits for it"};
     } catch (const Failure& failure) {
         return sceneError(file, failure.what());
     } catch (const std::bad_alloc&) {
-        return sceneError(file, "out of memory; right is a smaller scene");
+        return sceneError(file, "out of memory; expected a smaller scene");
     } catch (const std::exception& error) {
         return sceneError(file, "cannot be read: " + printable(error.what(), 300));
     }

@@ -50,7 +50,7 @@ failBroken(const std::string& user, const char* format, const std::string& reaso
 [[noreturn]] void failFormat(std::span<const std::byte> file, const std::string& user) {
     throw Unusable(warning::kImageFormat, user + " is of an unknown format (" +
                                               std::to_string(file.size()) +
-                                              " bytes); right is PNG, JPEG, WebP or KTX2");
+                                              " bytes); expected PNG, JPEG, WebP or KTX2");
 }
 
 // Reads the header; `decoder` is ready for the pixels afterwards.
@@ -75,7 +75,7 @@ jpegSize(const Decompressor& decoder, std::span<const std::byte> file, const std
                        "x" + std::to_string(height) + " pixels that its header tells");
     }
     if (colorspace == TJCS_CMYK || colorspace == TJCS_YCCK) {
-        throw Unusable(warning::kImageFormat, user + " is a CMYK JPEG; right is RGB or grey");
+        throw Unusable(warning::kImageFormat, user + " is a CMYK JPEG; expected RGB or grey");
     }
     return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
 }
@@ -102,7 +102,7 @@ ImageSize webpSize(std::span<const std::byte> file, const std::string& user) {
         failBroken(user, "WebP", "its header cannot be read");
     }
     if (features.has_animation != 0) {
-        throw Unusable(warning::kImageFormat, user + " is a WebP animation; right is one picture");
+        throw Unusable(warning::kImageFormat, user + " is a WebP animation; expected one picture");
     }
     return {static_cast<uint32_t>(features.width), static_cast<uint32_t>(features.height)};
 }

@@ -61,7 +61,7 @@ void checkMimeType(const Job& job, const ImageSource& source, size_t number, War
     if (!source.mime_type.empty() && source.mime_type != type) {
         warnings.add(warning::kMimeType, pointerTo("images", number) + "/mimeType",
                      job.user + " has the mimeType '" + printable(source.mime_type) +
-                         "'; it is read as what it is, " + std::string(type));
+                         "'; it is read by its content, " + std::string(type));
     }
 }
 

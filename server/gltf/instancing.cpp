@@ -32,13 +32,13 @@ std::vector<glm::dmat4> nodeInstances(const tinygltf::Node& node,
             const uint64_t own = accessors.count(intOr(attributes, semantic, -1), name);
             if (count && own != *count) {
                 fail(name + " has instance attributes of " + std::to_string(*count) + " and " +
-                     std::to_string(own) + " elements; right are equal counts");
+                     std::to_string(own) + " elements; expected equal counts");
             }
             count = own;
         }
     }
     if (!count) {
-        fail(name + " has instances without TRANSLATION, ROTATION or SCALE; right is one of them");
+        fail(name + " has instances without TRANSLATION, ROTATION or SCALE; expected one of them");
     }
     budget.take(*count, name);
     std::vector<glm::vec3> translations(*count, glm::vec3(0));

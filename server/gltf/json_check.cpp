@@ -118,7 +118,7 @@ void tellForeign(const std::string& name, const Foreign& foreign, Warnings& warn
     const bool is_metadata = isOneOf(kMetadataExtensions, name);
     const std::string where = foreign.count == 0
                                   ? "is ignored"
-                                  : "what it says of " + std::to_string(foreign.count) +
+                                  : "the member " + std::to_string(foreign.count) +
                                         (foreign.count == 1 ? " thing" : " things") +
                                         " is ignored, the first at '" + foreign.first + "'";
     warnings.add(is_metadata ? warning::kUnsupportedMetadata : warning::kUnsupportedExtension,
@@ -146,7 +146,7 @@ void checkExtensions(const Json& root, Foreigners foreigners, Warnings& warnings
         if (found != foreigners.end() && !found->second.geometry.empty()) {
             fail("the file requires the extension '" + printable(name) +
                  "', which is not supported, and '" + found->second.geometry +
-                 "' cannot be read without it; right is a file without that extension");
+                 "' cannot be read without it; expected a file without that extension");
         }
     }
     for (const auto& [name, foreign] : foreigners) {
@@ -262,11 +262,11 @@ Json parseJson(std::span<const std::byte> text) {
     try {
         Json root = Json::parse(first, first + text.size());
         if (!root.is_object()) {
-            fail("the JSON text is not an object; right is a glTF 2.0 file");
+            fail("the JSON text is not an object; expected a glTF 2.0 file");
         }
         return root;
     } catch (const Json::exception& error) {
-        fail("it is no glTF 2.0 file: " + printable(error.what(), 200));
+        fail("it is not a glTF 2.0 file: " + printable(error.what(), 200));
     }
 }
 

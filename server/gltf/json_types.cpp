@@ -376,7 +376,7 @@ class Types {
     // Whether it could be brought to the right type.
     bool brought(const std::string& name, Json& value, const Rule& rule) {
         const std::string wrong =
-            path_ + " is " + shown(value, rule) + "; right is " + describe(rule);
+            path_ + " is " + shown(value, rule) + "; expected " + describe(rule);
         if (bearsGeometry(name, path_)) {
             fail(wrong);
         }

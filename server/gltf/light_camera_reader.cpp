@@ -35,7 +35,7 @@ class Subject {
             return value;
         }
         tell(std::string("has ") + property + " " + numberText(value) + "; " + numberText(instead) +
-             " is used, since right is " + right);
+             " is used; expected " + right);
         return instead;
     }
 
@@ -50,7 +50,7 @@ bool readLens(const CameraSource& source, settings::Camera& camera, const Subjec
     if (source.type == "perspective") {
         if (!(source.size > 0 && source.size < glm::pi<double>())) {
             subject.tell("has yfov " + numberText(source.size) +
-                         " and is left out; right is above 0 and below pi radians");
+                         " and is left out; expected above 0 and below pi radians");
             return false;
         }
         camera.projection = settings::Projection::kPerspective;
@@ -61,7 +61,7 @@ bool readLens(const CameraSource& source, settings::Camera& camera, const Subjec
     }
     if (source.type == "orthographic") {
         if (source.size == 0) {
-            subject.tell("has ymag 0 and is left out; right is above 0");
+            subject.tell("has ymag 0 and is left out; expected above 0");
             return false;
         }
         camera.projection = settings::Projection::kOrthographic;
@@ -71,7 +71,7 @@ bool readLens(const CameraSource& source, settings::Camera& camera, const Subjec
         return true;
     }
     subject.tell("has the type '" + printable(source.type, 40) +
-                 "' and is left out; right is perspective or orthographic");
+                 "' and is left out; expected perspective or orthographic");
     return false;
 }
 
@@ -83,7 +83,7 @@ std::optional<scene::LightType> lightTypeFrom(const std::string& text, const Sub
     const auto type = named(kTypes, text);
     if (!type) {
         subject.tell("has the type '" + printable(text, 40) +
-                     "' and is left out; right is point, spot or directional");
+                     "' and is left out; expected point, spot or directional");
     }
     return type;
 }
@@ -91,8 +91,8 @@ std::optional<scene::LightType> lightTypeFrom(const std::string& text, const Sub
 void readCones(const LightSource& source, scene::PunctualLight& light, const Subject& subject) {
     const auto tell = [&](const char* which, double value, double used, const char* right) {
         subject.tell(warning::kConeAngles, std::string("has ") + which + " " + numberText(value) +
-                                               "; " + numberText(used) +
-                                               " is used, since right is " + right);
+                                               "; " + numberText(used) + " is used; expected " +
+                                               right);
     };
     constexpr double kWidest = glm::half_pi<double>();
     light.outer_cone_rad = std::clamp(source.outer_cone_rad, 0.0, kWidest);
@@ -116,8 +116,8 @@ glm::vec3 colorFrom(const LightSource& source, const Subject& subject) {
         color[static_cast<int>(i)] = static_cast<float>(
             subject.number("the color component", value, value >= 0, "0 to 1", 0));
         if (value > 1) {
-            subject.tell("has the color component " + numberText(value) +
-                         ", which is kept; right is 0 to 1");
+            subject.tell("has the colour component " + numberText(value) +
+                         ", which is kept; expected 0 to 1");
         }
     }
     return color;
@@ -125,7 +125,7 @@ glm::vec3 colorFrom(const LightSource& source, const Subject& subject) {
 
 void tellNoDirection(const Subject& subject) {
     subject.tell(warning::kNoDirection,
-                 "is on a node whose scale is 0, which leaves no direction; it is left out");
+                 "is on a node of scale 0, which has no direction; it is left out");
 }
 
 } // namespace
@@ -175,7 +175,7 @@ std::optional<scene::PunctualLight> readLight(const LightSource& source,
         subject.number("intensity", source.intensity, source.intensity >= 0, "0 or more", 0));
     if (source.range_m < 0) {
         subject.tell("has range " + numberText(source.range_m) +
-                     "; it reaches everywhere, since right is above 0");
+                     "; its range is unlimited; expected above 0");
     }
     result.range_m = static_cast<float>(std::max(source.range_m, 0.0));
     if (result.type == scene::LightType::kSpot) {

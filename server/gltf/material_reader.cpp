@@ -68,7 +68,7 @@ float MaterialReader::unit(double value, const char* factor, const std::string& 
     if (clamped != value) {
         warnings_.add(warning::kFactorRange, pointer_,
                       name + " has the " + factor + " " + numberText(value) + "; " +
-                          numberText(clamped) + " is used, since right is 0 to 1");
+                          numberText(clamped) + " is used; expected 0 to 1");
     }
     return static_cast<float>(clamped);
 }
@@ -80,7 +80,7 @@ float MaterialReader::inRange(double value,
     const auto tell = [&](const std::string& used, const char* right) {
         warnings_.add(warning::kFactorRange, pointer_,
                       name + " has the " + factor.key + " " + numberText(value) + "; " + used +
-                          " is used, since right is " + right);
+                          " is used; expected " + right);
     };
     switch (factor.range) {
     case FactorRange::kUnit:
@@ -113,7 +113,7 @@ double MaterialReader::numberIn(const tinygltf::Value& object,
                                 const std::string& name) {
     if (object.Has(key) && !object.Get(key).IsNumber()) {
         warnings_.add(warning::kType, pointer_,
-                      name + " has a " + key + " that is not used; right is a number");
+                      name + " has a " + key + " that is not used; expected a number");
         return fallback;
     }
     return numberOr(object, key, fallback);
@@ -129,7 +129,7 @@ std::vector<double> MaterialReader::factorsIn(const tinygltf::Value& object,
     const tinygltf::Value& value = object.Get(key);
     if (!value.IsArray()) {
         warnings_.add(warning::kType, pointer_,
-                      name + " has a " + key + " that is not used; right is an array of " +
+                      name + " has a " + key + " that is not used; expected an array of " +
                           std::to_string(fallback.size()) + " numbers");
         return fallback;
     }
@@ -161,7 +161,7 @@ scene::AlphaMode MaterialReader::alphaModeFrom(const std::string& text, const st
     if (!mode) {
         warnings_.add(warning::kUnknownName, pointer_,
                       name + " has alphaMode '" + printable(text, 40) +
-                          "'; OPAQUE is used, since right is OPAQUE, MASK or BLEND");
+                          "'; OPAQUE is used; expected OPAQUE, MASK or BLEND");
     }
     return mode.value_or(scene::AlphaMode::kOpaque);
 }
@@ -223,7 +223,7 @@ uint32_t MaterialReader::withTexcoords(uint32_t material,
     if (left_out > 0) {
         warnings_.add(warning::kNoTexcoord, pointer,
                       user + " has no texture coordinates for " + std::to_string(left_out) +
-                          " textures of its material, which it goes without");
+                          " textures of its material, which are left out");
     }
     if (left_out == 0 && !moved) {
         return material;
@@ -270,7 +270,7 @@ scene::Material MaterialReader::read(const tinygltf::Material& source, const std
         if (strength < 0) {
             warnings_.add(warning::kFactorRange, pointer_,
                           name + " has emissiveStrength " + numberText(strength) +
-                              "; 0 is used, since right is 0 or more");
+                              "; 0 is used; expected 0 or more");
             strength = 0;
         }
     }
@@ -446,7 +446,7 @@ uint32_t MaterialReader::sampler(int index, const std::string& user) {
     const auto wrap = [&](const char* property, int value) {
         const auto known_wrap = wrapFrom(value);
         if (!known_wrap) {
-            tell(property, value, "it repeats, since right is 10497, 33648 or 33071");
+            tell(property, value, "it repeats; expected 10497, 33648 or 33071");
         }
         return known_wrap.value_or(scene::Wrap::kRepeat);
     };
@@ -456,11 +456,11 @@ uint32_t MaterialReader::sampler(int index, const std::string& user) {
     if (source.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) {
         sampler.mag = scene::Filter::kNearest;
     } else if (source.magFilter != -1 && source.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR) {
-        tell("magFilter", source.magFilter, "it is linear, since right is 9728 or 9729");
+        tell("magFilter", source.magFilter, "it is linear; expected 9728 or 9729");
     }
     if (!setMinFilter(sampler, source.minFilter)) {
         tell("minFilter", source.minFilter,
-             "it is linear with mipmaps, since right is 9728, 9729 or 9984 to 9987");
+             "it is linear with mipmaps; expected 9728, 9729 or 9984 to 9987");
     }
     const auto position = static_cast<uint32_t>(scene_.samplers.size());
     scene_.samplers.push_back(sampler);

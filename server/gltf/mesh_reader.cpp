@@ -171,7 +171,7 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
     if (source.mode < TINYGLTF_MODE_POINTS || source.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
         warnings_.add(warning::kUnknownMode, pointer + "/mode",
                       user + " has mode " + std::to_string(source.mode) +
-                          " and is not drawn; right is 0 to 6");
+                          " and is not drawn; expected 0 to 6");
         return std::nullopt;
     }
     if (!topology) {
@@ -196,7 +196,7 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
     if (*topology == Topology::kTriangles && list_length != index_count) {
         warnings_.add(warning::kCountOff, pointer,
                       user + " has " + std::to_string(index_count) +
-                          " indices, no multiple of 3; the last are ignored");
+                          " indices, which is not a multiple of 3; the last ones are ignored");
     }
     if (draco == nullptr) {
         vertices_.take(vertex_count, user);
@@ -253,7 +253,7 @@ std::unique_ptr<DracoMesh> MeshReader::openDraco(const tinygltf::Primitive& sour
                       user + " has " + std::to_string(vertex_count) + " vertices and " +
                           std::to_string(index_count) + " indices by its accessors, but " +
                           std::to_string(vertices) + " and " + std::to_string(indices) +
-                          " in its Draco stream, which is what is drawn");
+                          " in its Draco stream, which is drawn");
     }
     vertex_count = vertices;
     index_count = indices;
@@ -318,8 +318,8 @@ TexcoordPlaces MeshReader::readTexcoords(const std::vector<uint32_t>& sets,
         if (place == streams.size()) {
             warnings_.add(warning::kThirdTexcoord, pointer + "/attributes/" + semantic,
                           user + " has " + semantic +
-                              " as a third set of coordinates that its material reads; it is left "
-                              "out, since two are supported");
+                              " as the third set of coordinates of its material; it is left out, "
+                              "because two sets are supported");
             continue;
         }
         *streams[place] = std::move(texcoords);
@@ -361,7 +361,7 @@ std::vector<uint32_t> MeshReader::readIndices(const tinygltf::Primitive& source,
     if (draco != nullptr) {
         if (source.mode != TINYGLTF_MODE_TRIANGLES) {
             fail(user + " is compressed by Draco with mode " + std::to_string(source.mode) +
-                 "; right is 4");
+                 "; expected 4");
         }
         indices = draco->indices();
     } else if (accessor >= 0) {
@@ -373,7 +373,7 @@ std::vector<uint32_t> MeshReader::readIndices(const tinygltf::Primitive& source,
     for (size_t i = 0; i < indices.size(); ++i) {
         if (indices[i] >= vertex_count) {
             fail(user + " index " + std::to_string(i) + " is " + std::to_string(indices[i]) +
-                 "; right is below " + std::to_string(vertex_count) + ", its vertices");
+                 "; expected below " + std::to_string(vertex_count) + ", its vertices");
         }
     }
     return indices;
@@ -459,10 +459,10 @@ void MeshReader::finishNormals(bool has_normals,
     }
     if (!broken.empty()) {
         recomputeNormals(primitive, broken);
-        warnings_.add(warning::kLengthZero, pointer + "/attributes/NORMAL",
-                      user + " has " + std::to_string(broken.size()) +
-                          " normals of length 0 or not finite; they are those of the triangles "
-                          "around");
+        warnings_.add(
+            warning::kLengthZero, pointer + "/attributes/NORMAL",
+            user + " has " + std::to_string(broken.size()) +
+                " normals of length 0 or not finite; the surrounding triangles replace them");
     }
 }
 

@@ -29,7 +29,7 @@ MeshoptMode modeFrom(const std::string& text, const std::string& name) {
         return MeshoptMode::kIndices;
     }
     fail(name + " has the meshopt mode '" + printable(text) +
-         "'; right is ATTRIBUTES, TRIANGLES or INDICES");
+         "'; expected ATTRIBUTES, TRIANGLES or INDICES");
 }
 
 MeshoptFilter filterFrom(const std::string& text, const std::string& name) {
@@ -46,7 +46,7 @@ MeshoptFilter filterFrom(const std::string& text, const std::string& name) {
         return MeshoptFilter::kExponential;
     }
     fail(name + " has the meshopt filter '" + printable(text) +
-         "'; right is NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
+         "'; expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
 }
 
 // The decoders take these as preconditions and check them by assert at most.
@@ -100,15 +100,15 @@ std::optional<MeshoptView> meshoptView(const tinygltf::BufferView& view, const s
     result.filter = filterFrom(textOr(*extension, "filter", "NONE"), name);
     if (!strideFits(result)) {
         fail(name + " has the meshopt byteStride " + std::to_string(result.stride_bytes) +
-             "; right is 2 or 4 for indices, a multiple of 4 up to 256 for attributes, 4 or 8 for "
+             "; expected 2 or 4 for indices, a multiple of 4 up to 256 for attributes, 4 or 8 for "
              "OCTAHEDRAL and 8 for QUATERNION");
     }
     if (result.mode == MeshoptMode::kTriangles && result.count % 3 != 0) {
         fail(name + " has the meshopt count " + std::to_string(result.count) +
-             "; right is a multiple of 3 for TRIANGLES");
+             "; expected a multiple of 3 for TRIANGLES");
     }
     if (result.mode != MeshoptMode::kAttributes && result.filter != MeshoptFilter::kNone) {
-        fail(name + " has a meshopt filter on indices; right is NONE");
+        fail(name + " has a meshopt filter on indices; expected NONE");
     }
     return result;
 }

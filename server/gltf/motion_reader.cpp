@@ -55,7 +55,7 @@ std::optional<TrackFault> faultIn(const scene::Track& track) {
     const size_t right = track.times_s.size() * parts * track.width;
     if (track.values.size() != right) {
         return TrackFault{warning::kKeyValues, std::to_string(track.values.size()) +
-                                                   " numbers of output; right are " +
+                                                   " numbers of output; expected " +
                                                    std::to_string(right)};
     }
     return {};
@@ -110,7 +110,7 @@ MotionReader::pathOf(const ChannelSource& channel, size_t place, const Subject& 
     if (!path) {
         tell(warning::kUnknownName, subject,
              "has the path '" + printable(channel.path) +
-                 "'; right is translation, rotation, scale or weights; it is not played");
+                 "'; expected translation, rotation, scale or weights; it is not played");
         return std::nullopt;
     }
     const bool weights = *path == ChannelPath::kWeights;
@@ -121,7 +121,7 @@ MotionReader::pathOf(const ChannelSource& channel, size_t place, const Subject& 
     }
     if (!weights && !document_.model.nodes[placed_[place].node].matrix.empty()) {
         tell(warning::kAnimatedMatrix, subject,
-             "moves a node that has a matrix; right is one with translation, rotation and scale; "
+             "moves a node that has a matrix; expected one with translation, rotation and scale; "
              "it is not played");
         return std::nullopt;
     }
@@ -132,12 +132,12 @@ std::optional<scene::Track> MotionReader::readTrack(const SamplerSource& source,
                                                     ChannelPath path,
                                                     size_t width,
                                                     const Subject& subject) {
-    const std::string consequence = "; what it moves keeps its rest pose";
+    const std::string consequence = "; its targets keep their rest pose";
     const auto interpolation = named(kInterpolations, source.interpolation);
     if (!interpolation) {
         tell(warning::kUnknownName, subject,
              "has the interpolation '" + printable(source.interpolation) +
-                 "'; right is STEP, LINEAR or CUBICSPLINE" + consequence);
+                 "'; expected STEP, LINEAR or CUBICSPLINE" + consequence);
         return std::nullopt;
     }
     const size_t components = path == ChannelPath::kWeights ? 1 : width;
@@ -177,7 +177,7 @@ void MotionReader::readClip(size_t number) {
         }
         if (!taken.emplace(place, *path).second) {
             tell(warning::kAnimatedTwice, subject,
-                 "moves what an earlier channel moves; it is not played");
+                 "moves the target of an earlier channel; it is not played");
             continue;
         }
         if (channel.sampler < 0 || static_cast<size_t>(channel.sampler) >= source.samplers.size()) {
@@ -257,7 +257,7 @@ std::optional<scene::Skin> MotionReader::readSkin(size_t number) {
         const auto node = static_cast<size_t>(joint);
         if (node >= place_of_node_.size() || place_of_node_[node] == kNone) {
             return refuse(warning::kHiddenJoint, "has the joint node " + std::to_string(joint) +
-                                                     ", which the scene does not show");
+                                                     ", which is not part of the scene");
         }
         skin.joints.push_back(place_of_node_[node]);
     }

@@ -42,7 +42,7 @@ void checkLastRow(const tinygltf::Node& node,
         warnings.add(warning::kLastRow, pointer,
                      name + " has a matrix with the last row (" + numberText(last_row.x) + ", " +
                          numberText(last_row.y) + ", " + numberText(last_row.z) + ", " +
-                         numberText(last_row.w) + "), which is ignored; right is (0, 0, 0, 1)");
+                         numberText(last_row.w) + "), which is ignored; expected (0, 0, 0, 1)");
     }
 }
 
@@ -56,7 +56,7 @@ void checkRotation(const glm::dquat& rotation,
     if (!scene::isDirection(length)) {
         warnings.add(warning::kRotationZero, pointer,
                      name + " has a rotation of length " + numberText(length) +
-                         " and is not rotated; right is 1");
+                         " and is not rotated; expected 1");
     } else if (std::abs(length - 1) > kUnitTolerance) {
         warnings.add(warning::kRotationLength, pointer,
                      name + " has a rotation of length " + numberText(length) +
@@ -92,9 +92,10 @@ glm::dmat4 nodeTransform(const tinygltf::Node& node, size_t index, Warnings& war
     checkLastRow(node, pointer + "/matrix", name, warnings);
     const glm::dmat4 matrix = nodeMatrix(node);
     if (shears(glm::dmat3(matrix))) {
-        warnings.add(warning::kShear, pointer + "/matrix",
-                     name + " has a matrix that shears; right is a product of translation, "
-                            "rotation and scale");
+        warnings.add(
+            warning::kShear, pointer + "/matrix",
+            name +
+                " has a matrix that shears; expected a product of translation, rotation and scale");
     }
     return matrix;
 }
@@ -109,7 +110,7 @@ bool isUsable(const glm::dmat4& world_from_node, size_t index, Warnings& warning
     });
     warnings.add(warning::kFarAway, pointerTo("nodes", index),
                  thing("node", index) + " has a world matrix with " + numberText(*bad) +
-                     " and is left out; right are transforms whose product stays within 1e15");
+                     " and is left out; expected transforms whose product stays within 1e15");
     return false;
 }
 

@@ -21,7 +21,7 @@ struct Tree {
 };
 
 [[noreturn]] void failCycle(size_t node) {
-    fail(thing("node", node) + " is part of a cycle of children; right is a tree");
+    fail(thing("node", node) + " is part of a cycle of children; expected a tree");
 }
 
 // Nodes without a parent are taken away, again and again. What stays hangs on a cycle: up from any
@@ -81,7 +81,7 @@ Tree readTree(const tinygltf::Model& model, Warnings& warnings) {
             } else if (static_cast<size_t>(parent) == i) {
                 warnings.add(warning::kListedTwice, pointerTo("nodes", i) + "/children",
                              thing("node", i) + " lists node " + std::to_string(index) +
-                                 " twice; it is there once");
+                                 " twice; it is shown once");
             } else {
                 warnings.add(warning::kTwoParents, pointerTo("nodes", i) + "/children",
                              thing("node", index) + " is a child of node " +
@@ -122,7 +122,7 @@ listedRoots(const tinygltf::Model& model, size_t scene, const Tree& tree, Warnin
         if (listed[index]) {
             warnings.add(warning::kListedTwice, pointerTo("scenes", scene) + "/nodes",
                          user + " lists node " + std::to_string(index) +
-                             " twice; it is there once");
+                             " twice; it is shown once");
             continue;
         }
         listed[index] = true;
@@ -132,11 +132,11 @@ listedRoots(const tinygltf::Model& model, size_t scene, const Tree& tree, Warnin
     std::vector<size_t> roots;
     for (const size_t node : nodes) {
         if (const int parent = tree.parents[node]; parent != kNoParent) {
-            warnings.add(warning::kListedChild, pointerTo("scenes", scene) + "/nodes",
-                         user + " lists node " + std::to_string(node) + ", a child of node " +
-                             std::to_string(parent) +
-                             (below[node] ? "; it stays there"
-                                          : "; it is placed without the nodes above it"));
+            warnings.add(
+                warning::kListedChild, pointerTo("scenes", scene) + "/nodes",
+                user + " lists node " + std::to_string(node) + ", a child of node " +
+                    std::to_string(parent) +
+                    (below[node] ? "; it stays there" : "; it is placed without its ancestors"));
         }
         if (!below[node]) {
             roots.push_back(node);

@@ -103,7 +103,7 @@ Bytes SceneFolder::readFile(const fs::path& path, bool canonical, const std::str
     }
     files_.back().stamp = stampOf(status);
     if (canonical && !isAt(file.get(), path)) {
-        fail(user + " names " + shown + ", where a link was put meanwhile; right is a file there");
+        fail(user + " names " + shown + ", which meanwhile became a link; expected a file");
     }
     if (!S_ISREG(status.st_mode)) {
         throw Unusable(warning::kMissingFile,
@@ -122,14 +122,15 @@ Bytes SceneFolder::readFile(const fs::path& path, bool canonical, const std::str
         }
         if (got <= 0) {
             fail(user + " cannot read " + shown + ": " +
-                 (got < 0 ? reason(errno) : "it is shorter than it was"));
+                 (got < 0 ? reason(errno) : "it became shorter while it was read"));
         }
         done += static_cast<size_t>(got);
     }
     if (isLfsPointer(bytes)) {
-        throw Unusable(warning::kMissingFile, user + " names " + shown +
-                                                  ", which is a Git LFS pointer; right is the file "
-                                                  "itself, which git lfs pull fetches");
+        throw Unusable(
+            warning::kMissingFile,
+            user + " names " + shown +
+                ", which is a Git LFS pointer; expected the file itself; git lfs pull fetches it");
     }
     file_bytes_ += size;
     return bytes;
@@ -156,9 +157,9 @@ Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
                    error.value());
     }
     if (!isInside(target, folder_)) {
-        throw Unusable(warning::kUri, user + " has the URI '" + printable(uri) +
-                                          "', a link that leaves the scene's folder; right is a "
-                                          "file inside it");
+        throw Unusable(warning::kUri,
+                       user + " has the URI '" + printable(uri) +
+                           "', a link that leaves the scene's folder; expected a file inside it");
     }
     return readFile(target, true, user);
 }

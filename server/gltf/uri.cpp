@@ -111,10 +111,10 @@ Bytes bytesOfDataUri(std::string_view uri, const std::string& user) {
             decodedData(whole.substr(kData.size(), comma - kData.size()), whole.substr(comma + 1));
     }
     if (decoded.empty()) {
-        throw Unusable(warning::kBrokenImage,
-                       user + " has the URI '" + printable(std::string(uri.substr(0, 40)), 40) +
-                           "', which cannot be decoded; right is data:TYPE;base64, with at least "
-                           "one byte");
+        throw Unusable(
+            warning::kBrokenImage,
+            user + " has the URI '" + printable(std::string(uri.substr(0, 40)), 40) +
+                "', which cannot be decoded; expected data:TYPE;base64, with at least one byte");
     }
     Bytes bytes(decoded.size());
     std::memcpy(bytes.data(), decoded.data(), decoded.size());
@@ -124,7 +124,7 @@ Bytes bytesOfDataUri(std::string_view uri, const std::string& user) {
 fs::path relativePathFromUri(const std::string& uri, const std::string& user) {
     const auto refuse = [&](const char* why, const char* more = "") {
         throw Unusable(warning::kUri, user + " has the URI '" + printable(uri) + "', which " + why +
-                                          "; right is a path inside the scene's folder" + more);
+                                          "; expected a path inside the scene's folder" + more);
     };
     if (hasScheme(uri)) {
         refuse("has a scheme", ", or data:");

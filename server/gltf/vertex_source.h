@@ -40,7 +40,7 @@ class VertexSource {
         }
         if (accessors_.count(index, user) != count) {
             fail(user + " has " + std::to_string(accessors_.count(index, user)) +
-                 " elements; right is " + std::to_string(count) + ", as POSITION has");
+                 " elements; expected " + std::to_string(count) + ", as POSITION has");
         }
         return accessors_.vectors<N>(index, user, NotFinite::kKept);
     }

@@ -25,8 +25,7 @@ void tellTooMany(const std::string& things, size_t left_out, Warnings& warnings)
     if (left_out > 0) {
         warnings.add(warning::kTooMany, "",
                      "the file has " + std::to_string(kMaxChoices + left_out) + " " + things +
-                         "; the first " + std::to_string(kMaxChoices) +
-                         " are read, since all can be chosen by name");
+                         "; the first " + std::to_string(kMaxChoices) + " are read");
     }
 }
 

@@ -134,7 +134,7 @@ vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, DeviceChoice
         reasons += std::string("; ") + properties.deviceName.data() + " " + reason;
     }
     const char* wanted = choice == DeviceChoice::kGpu
-                             ? "no usable GPU (--device auto takes a CPU device, too)"
+                             ? "no usable GPU (--device auto also accepts a CPU device)"
                          : choice == DeviceChoice::kCpu ? "no usable CPU device (Debian: "
                                                           "mesa-vulkan-drivers)"
                                                         : "no usable Vulkan device";

@@ -71,8 +71,8 @@ Instance::Instance(bool validation)
         instance_ = vk::raii::Instance(context_, info);
     } catch (const vk::IncompatibleDriverError&) { // the loader's word for none at all
         throw StartupError({ErrorCode::kDevice,
-                            "no Vulkan driver is found; right is a GPU's own, or lavapipe, which "
-                            "draws on the processor (Debian: mesa-vulkan-drivers)"});
+                            "no Vulkan driver was found; install the GPU's driver, or "
+                            "lavapipe for the CPU (Debian: mesa-vulkan-drivers)"});
     }
     if (validation) {
         using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;

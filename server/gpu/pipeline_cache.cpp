@@ -47,7 +47,7 @@ std::string faultOf(std::span<const std::byte> bytes, const PipelineCacheKey& ke
         return "has another kind of Vulkan header";
     }
     if (header.vendor != key.vendor || header.device != key.device || header.uuid != key.uuid) {
-        return "is of another device or driver";
+        return "belongs to another device or driver";
     }
     return {};
 }
@@ -58,10 +58,10 @@ std::string faultOf(const Header& header, const PipelineCacheKey& key) {
     }
     if (header.key.vendor != key.vendor || header.key.device != key.device ||
         header.key.uuid != key.uuid || header.key.driver_version != key.driver_version) {
-        return "is of another device or driver";
+        return "belongs to another device or driver";
     }
     if (header.key.build != key.build) {
-        return "is of another build";
+        return "belongs to another build";
     }
     return header.length > kLargestBytes ? "states an impossible length" : std::string();
 }

@@ -86,14 +86,14 @@ Result<void> checkShape(std::span<const std::byte> file) {
     const auto field = [&](size_t at) { return numberAt<uint32_t>(file, at); };
     if (field(kDepthAt) != 0) {
         return other("it has the depth " + numberText(field(kDepthAt)) +
-                     "; right is 0, a flat picture");
+                     "; expected 0, a flat picture");
     }
     if (field(kLayersAt) > 1) {
         return other("it is an array of " + numberText(field(kLayersAt)) +
-                     " pictures; right is one");
+                     " pictures; expected one");
     }
     if (field(kFacesAt) != 1) {
-        return other("it has " + numberText(field(kFacesAt)) + " faces; right is 1");
+        return other("it has " + numberText(field(kFacesAt)) + " faces; expected 1");
     }
     const uint32_t width = field(kWidthAt);
     const uint32_t height = field(kHeightAt);
@@ -119,7 +119,7 @@ Result<Texels> basisTexels(std::span<const std::byte> file) {
     }
     if (size < kFirstSampleAt + kSampleBytes) {
         return broken("its data format descriptor has " + numberText(size) +
-                      " bytes; right is at least " + numberText(kFirstSampleAt + kSampleBytes));
+                      " bytes; expected at least " + numberText(kFirstSampleAt + kSampleBytes));
     }
     const auto channel = [&](size_t sample) {
         const size_t byte = kFirstSampleAt + sample * kSampleBytes + kChannelAt;
@@ -130,13 +130,13 @@ Result<Texels> basisTexels(std::span<const std::byte> file) {
     const bool is_etc1s = model == kEtc1sModel;
     if (!is_etc1s && model != kUastcModel) {
         return other("its texels have the colour model " + numberText(model) +
-                     "; right is ETC1S (163), UASTC (166), or 8 bits a channel");
+                     "; expected ETC1S (163), UASTC (166), or 8 bits a channel");
     }
     if (is_etc1s ? channel(0) != kRgbChannel || channel(1) != kEtc1sAlphaChannel
                  : channel(0) != kRgbChannel && channel(0) != kUastcRgbaChannel) {
         return other("its channels are " + numberText(channel(0)) +
                      (is_etc1s ? " and " + numberText(channel(1)) : std::string()) +
-                     " of the colour model " + numberText(model) + "; right is RGB or RGBA");
+                     " of the colour model " + numberText(model) + "; expected RGB or RGBA");
     }
     return is_etc1s ? Texels::kEtc1s : Texels::kUastc;
 }
@@ -156,7 +156,7 @@ Result<Texels> readTexels(std::span<const std::byte> file) {
         return Texels::kRgb8;
     }
     return other("its vkFormat is " + numberText(format) +
-                 "; right is 0 (ETC1S, UASTC), 23, 29 (RGB8), 37 or 43 (RGBA8)");
+                 "; expected 0 (ETC1S, UASTC), 23, 29 (RGB8), 37 or 43 (RGBA8)");
 }
 
 Result<Packing> readPacking(std::span<const std::byte> file, Texels texels) {
@@ -194,7 +194,7 @@ Result<Level> readLevel(std::span<const std::byte> file, uint32_t number, const 
         const uint64_t right = unpackedBytes(of.texels, level);
         const uint64_t told = of.packing == Packing::kNone ? size : unpacked;
         if (told != right) {
-            return broken(name + " has " + numberText(told) + " bytes of texels; right is " +
+            return broken(name + " has " + numberText(told) + " bytes of texels; expected " +
                           numberText(right));
         }
         if (of.packing != Packing::kNone && right > size * kPackingRatio) {

@@ -63,8 +63,8 @@ Result<settings::PlacedLight> placedOf(const scene::PunctualLight& light) {
     placed.radius_m = light.range_m;
     const auto refuse = [](const char* what, double value, const settings::Range<double>& range) {
         return Error{ErrorCode::kInvalidArgument,
-                     std::string("is at a light whose ") + what + " is " + numberText(value) +
-                         "; a placed one's is from " + numberText(range.min) + " to " +
+                     std::string("hits a light whose ") + what + " is " + numberText(value) +
+                         "; that of a placed light is from " + numberText(range.min) + " to " +
                          numberText(range.max)};
     };
     if (const double radius_m = static_cast<double>(placed.radius_m);
@@ -92,9 +92,9 @@ LightRig::pick(const settings::ViewSettings& settings, double time_s, const glm:
     const settings::Lights& lights = settings.lights;
     const size_t light_count = lights.count + (lights.scene_lights ? scene_lights_.size() : 0);
     if (light_count > kMostPickable) {
-        return Error{ErrorCode::kInvalidArgument, "is in a picture of " + numberText(light_count) +
-                                                      " lights; one is picked of at most " +
-                                                      numberText(kMostPickable)};
+        return Error{ErrorCode::kInvalidArgument,
+                     "belongs to a picture of " + numberText(light_count) +
+                         " lights; picking works with at most " + numberText(kMostPickable)};
     }
     std::set<settings::LightRef> replaced;
     for (const settings::PlacedLight& light : lights.placed.lights()) {
@@ -105,7 +105,7 @@ LightRig::pick(const settings::ViewSettings& settings, double time_s, const glm:
     const Finder finder(settings, at);
     double nearest = kPickReach;
     Result<settings::PlacedLight> found = Error{
-        ErrorCode::kInvalidArgument, "is at no light: the middle of one must be within " +
+        ErrorCode::kInvalidArgument, "hits no light; the centre of one must be within " +
                                          numberText(kPickReach) + " of half the picture's height"};
     // One that cannot be placed is told only where no other is.
     const auto offer = [&](const settings::LightRef& ref, const scene::PunctualLight& light) {

@@ -17,7 +17,7 @@ Result<Target> parseTarget(std::string_view text) {
     };
     const auto parsed = urls::parse_uri({text.data(), text.size()});
     if (!parsed) {
-        return refuse("is no URL");
+        return refuse("is not a URL");
     }
     const urls::url_view& url = *parsed;
     const bool tls = url.scheme() == "wss" || url.scheme() == "https";
@@ -29,7 +29,7 @@ Result<Target> parseTarget(std::string_view text) {
     }
     if (const std::string host = url.host();
         host.starts_with('.') || host.find('\0') != std::string::npos) {
-        return refuse("has a host that is no name");
+        return refuse("has an invalid host name");
     }
     if (url.has_port() && url.port_number() == 0) {
         return refuse("has no port from 1 to 65535");

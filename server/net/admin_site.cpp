@@ -45,7 +45,7 @@ Response AdminSite::answer(const Request& request,
         return textResponse(http::status::accepted, "draining");
     }
     return textResponse(http::status::not_found,
-                        "not found; there are /metrics, /livez, /readyz, /startupz, /drain and "
+                        "not found; available are /metrics, /livez, /readyz, /startupz, /drain and "
                         "/rooms/NAME/take-control");
 }
 
@@ -61,18 +61,19 @@ std::optional<std::string> AdminSite::roomIn(std::string_view path) {
 
 Response AdminSite::takeControl(const std::string& room) const {
     return hooks_.take_control(room)
-               ? textResponse(http::status::ok, "the control of room " + room + " was taken")
+               ? textResponse(http::status::ok, "control of room " + room + " was taken")
                : textResponse(http::status::not_found, "nobody is in room " + room);
 }
 
 // A page of any site can make a browser on this machine post here; none sends this without Origin.
 std::optional<Response> AdminSite::refusePost(const Request& request) const {
     if (request.count(http::field::origin) > 0) {
-        return textResponse(http::status::forbidden, "no browser may do this");
+        return textResponse(http::status::forbidden, "browsers may not send this request");
     }
     if (!access_.tokens && !access_.loopback) {
-        return textResponse(http::status::forbidden,
-                            "only with --admin-token-file, since others reach this address");
+        return textResponse(
+            http::status::forbidden,
+            "this needs --admin-token-file, because other machines reach this address");
     }
     if (access_.tokens && !access_.tokens->lets(bearerToken(request))) {
         return unauthorized("Authorization must be Bearer and a token of --admin-token-file");
@@ -82,7 +83,7 @@ std::optional<Response> AdminSite::refusePost(const Request& request) const {
 
 std::optional<Response> AdminSite::refuseUpgrade(const Request& /*request*/,
                                                  const boost::asio::ip::address& /*peer*/) const {
-    return refusal(http::status::not_found, "no WebSocket at the admin address");
+    return refusal(http::status::not_found, "the admin address has no WebSocket");
 }
 
 void AdminSite::upgrade(PeerStream /*stream*/,

@@ -32,7 +32,7 @@ class BusySite final : public HttpSite {
 
     static Response refused() {
         return refusal(boost::beast::http::status::service_unavailable,
-                       "this server has as many connections as it takes; try again later");
+                       "this server accepts no more connections now; try again later");
     }
 };
 

@@ -98,7 +98,7 @@ Result<TrustedProxies> TrustedProxies::parse(const std::vector<std::string>& net
         if (failure) {
             return Error{ErrorCode::kInvalidArgument,
                          "'" + printable(text) +
-                             "' is no address or network, such as 10.0.0.0/8 or fd00::/8"};
+                             "' is not an address or network, such as 10.0.0.0/8 or fd00::/8"};
         }
         proxies.networks_.emplace_back(v6.canonical());
     }

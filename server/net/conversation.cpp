@@ -254,8 +254,8 @@ void Conversation::onService(const ServiceStatus& status, TimePoint now) {
     }
     service_ = status;
     if (pass_ && !pass_->valid()) {
-        tellError({RejectCode::kToken, 0, "token", "the token was taken away"});
-        close(CloseCode::kToken, "the token was taken away");
+        tellError({RejectCode::kToken, 0, "token", "the token was removed"});
+        close(CloseCode::kToken, "the token was removed");
     } else if (status.lost) {
         tellError({RejectCode::kDevice, 0, "", *status.lost});
         close(CloseCode::kDeviceLost, "the device was lost");
@@ -423,7 +423,7 @@ Outgoing Conversation::inReply(v1::ServerMessage message) const {
 
 void Conversation::answer(v1::ServerMessage message) {
     if (!outbox_.putAnswer(inReply(std::move(message)))) {
-        close(CloseCode::kSlowConsumer, "answers are not read");
+        close(CloseCode::kSlowConsumer, "the client does not read the answers");
     }
 }
 
@@ -457,11 +457,12 @@ void Conversation::onFlood(ReadBudget::Standing standing) {
     }
     const std::string most = numberText(ReadBudget::kMessages) + " a second or " +
                              numberText(ReadBudget::kBytesPerSecond) + " bytes a second";
-    tellError({RejectCode::kRateLimit, 0, "",
-               "messages are more than " + most +
-                   ", and what takes long counts as more bytes; they are read more slowly"});
+    tellError(
+        {RejectCode::kRateLimit, 0, "",
+         "more messages than " + most +
+             "; the server now reads them more slowly, and slow messages count as more bytes"});
     if (standing == ReadBudget::Standing::kSpent) {
-        close(CloseCode::kPolicy, "more messages than are read of one viewer");
+        close(CloseCode::kPolicy, "more messages than the server reads from one viewer");
     }
 }
 

@@ -15,9 +15,9 @@ Result<void> stepsWithin(const ServiceStatus& status, Seconds limit, TimePoint n
     if (step <= limit) {
         return {};
     }
-    return Error{ErrorCode::kDevice, "the render thread has been at one step for " +
-                                         numberText(std::round(step.count() * 10) / 10) +
-                                         " s; it may take " + numberText(limit.count()) + " s"};
+    return Error{ErrorCode::kDevice,
+                 "the render thread has spent " + numberText(std::round(step.count() * 10) / 10) +
+                     " s on one step; the limit is " + numberText(limit.count()) + " s"};
 }
 
 } // namespace
@@ -51,7 +51,7 @@ isLive(const ServiceStatus& status, const std::function<bool()>& network_moves, 
     }
     // Network threads end with the last viewer, while the process is about to end.
     if (!status.draining && !network_moves()) {
-        return Error{ErrorCode::kUnsupported, "the network threads take no work"};
+        return Error{ErrorCode::kUnsupported, "the network threads accept no work"};
     }
     return rendersOn(status, now);
 }

@@ -181,7 +181,7 @@ void HttpSession::onReadError(beast::error_code error) {
 
 void HttpSession::onRequest() {
     if (!parser_->is_done()) { // the header is complete and something is to follow
-        write(refusal(http::status::payload_too_large, "requests have no body here"));
+        write(refusal(http::status::payload_too_large, "requests must not have a body"));
         return;
     }
     ticket_->heardClient();
@@ -225,8 +225,9 @@ void HttpSession::refuseLater(Seconds wait) {
     request_deadline_.expires_after(std::chrono::ceil<std::chrono::milliseconds>(pause));
     request_deadline_.async_wait([self = shared_from_this()](beast::error_code error) {
         if (!error && !guarded("http answer", [&] {
-                Response response = refusal(http::status::too_many_requests,
-                                            "too many requests come from here; ask again later");
+                Response response =
+                    refusal(http::status::too_many_requests,
+                            "too many requests from this address or token; try again later");
                 response.set(http::field::retry_after, "5");
                 self->write(std::move(response));
             })) {

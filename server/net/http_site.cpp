@@ -105,8 +105,8 @@ std::optional<Response> refuseHost(const Request& request, const HttpSite& site)
     }
     return refusal(http::status::misdirected_request,
                    "host " + printable(host) +
-                       " is not answered to; it must be localhost, an IP address or a name given "
-                       "by --allow-host");
+                       " is not accepted; it must be localhost, an IP address or a name given by "
+                       "--allow-host");
 }
 
 std::string_view pathOf(const Request& request) {

@@ -83,7 +83,7 @@ Response linkPreview(const Request& request, bool secure, bool pictures) {
 <link rel="icon" href="./favicon.svg" type="image/svg+xml">
 <meta property="og:type" content="website">
 <meta property="og:title" content="Froxel">
-<meta property="og:description" content="A view of a scene, to move about in">
+<meta property="og:description" content="An interactive view of a scene">
 {0}<meta http-equiv="refresh" content="0; url={1}">
 <p><a href="{1}">Open this view</a></p>
 </html>

@@ -71,7 +71,7 @@ Listener::Listener(asio::io_context& io,
     const auto ip = asio::ip::make_address(bind.address, failure);
     if (failure) {
         throw StartupError({ErrorCode::kIo, "address \"" + printable(bind.address) +
-                                                "\" is no IPv4 or IPv6 address"});
+                                                "\" is not an IPv4 or IPv6 address"});
     }
     const tcp::endpoint endpoint(ip, bind.port);
     acceptor_.open(endpoint.protocol(), failure);

@@ -124,7 +124,7 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
     const std::lock_guard lock(mutex_);
     Member& member = members_.at(place.member);
     mail.add(member.viewer,
-             Closing{protocol::CloseCode::kReplaced, "a newer connection took this session up"});
+             Closing{protocol::CloseCode::kReplaced, "a newer connection continued this session"});
     if (room_.find(place.member)->away) {
         room_.setAway(place.member, false);
         tellRoom(mail);
@@ -338,7 +338,7 @@ CommandResult<void> LiveSession::changeControl(const Place& place,
     }
     if (!room_.shared()) {
         return Rejection{RejectCode::kUnsupported, 0, "",
-                         "this session is in no room; its control is yours"};
+                         "this session is not in a room; you control it"};
     }
     const uint64_t before = room_.version();
     if (const auto* give = std::get_if<session::GiveControl>(&command)) {

@@ -23,10 +23,10 @@
 
 namespace froxel::net {
 
-// What a session has to say to one of its viewers.
-struct StateNews {}; // LiveSession::state() is another
-struct RoomNews {};  // so is the room's
-struct SceneNews {}; // and what newsOfScene() tells
+// A change that a session announces to one of its viewers.
+struct StateNews {}; // LiveSession::state() changed
+struct RoomNews {};  // the state of the room changed
+struct SceneNews {}; // newsOfScene() changed
 using Notice =
     std::variant<session::ReadyFrame, StateNews, RoomNews, SceneNews, session::Rejection, Closing>;
 

@@ -81,7 +81,8 @@ PlaceResult<Lobby::Entries::iterator> Lobby::addMember(const Serving& serving,
             return gives_way.error();
         }
         if (*gives_way) {
-            end(**gives_way, {protocol::CloseCode::kResting, "another viewer has the place"}, mail);
+            end(**gives_way, {protocol::CloseCode::kResting, "another viewer took the place"},
+                mail);
         }
         auto opened = LiveSession::open(serving, hello.room, caller, now);
         if (!opened) {
@@ -117,7 +118,7 @@ PlaceResult<void> Lobby::admits(const Serving& serving,
         return {};
     }
     if (!announcement.resume.empty()) { // a proxy may know the server that has it
-        return Closing{CloseCode::kAllTaken, "this session is not here, or not any more"};
+        return Closing{CloseCode::kAllTaken, "this server does not have this session"};
     }
     if (rooms_.count(announcement.room) > 0) {
         return roomTakes(announcement.room, caller);
@@ -146,9 +147,9 @@ Lobby::whoGivesWay(const Serving& serving, const Caller& caller, TimePoint now) 
         }
     }
     if (!longest) {
-        return Closing{CloseCode::kAllTaken, "all " + numberText(rules_.sessions_max) +
-                                                 " sessions of this server are taken; try again "
-                                                 "later"};
+        return Closing{CloseCode::kAllTaken,
+                       "all " + numberText(rules_.sessions_max) +
+                           " sessions of this server are in use; try again later"};
     }
     return longest;
 }
@@ -160,8 +161,7 @@ Closing Lobby::whyNot(const Error& error, TimePoint now) const {
     if (busy_lines_.take(now)) {
         spdlog::info("event=device_busy reason={}", logValue(error.message));
     }
-    return {CloseCode::kDeviceBusy,
-            "the server draws for as many viewers as it can; try again later"};
+    return {CloseCode::kDeviceBusy, "the server cannot draw for more viewers now; try again later"};
 }
 
 PlaceResult<void> Lobby::withinLimits(const Caller& caller) const {
@@ -169,10 +169,9 @@ PlaceResult<void> Lobby::withinLimits(const Caller& caller) const {
         if (limit == 0 || std::ranges::count_if(sessions_, counts) < int64_t{limit}) {
             return PlaceResult<void>();
         }
-        return PlaceResult<void>(
-            Closing{CloseCode::kShareTaken, of + " has " + numberText(limit) +
-                                                " sessions here, which is all that "
-                                                "it may have; close one first"});
+        return PlaceResult<void>(Closing{
+            CloseCode::kShareTaken, of + " has " + numberText(limit) +
+                                        " sessions here, which is the maximum; close one first"});
     };
     if (caller.token) {
         auto allowed = check("this token", rules_.sessions_per_token, [&](const auto& session) {
@@ -197,15 +196,15 @@ PlaceResult<void> Lobby::roomTakes(const std::string& room, const Caller& caller
     }
     const auto full = [](uint32_t limit, int64_t count) { return limit > 0 && count >= limit; };
     if (full(rules_.viewers_per_room, all)) {
-        return Closing{CloseCode::kRoomFull, "all " + numberText(rules_.viewers_per_room) +
-                                                 " places of this room are taken; try again later"};
+        return Closing{CloseCode::kRoomFull,
+                       "all " + numberText(rules_.viewers_per_room) +
+                           " places of this room are in use; try again later"};
     }
     const uint32_t share = rules_.viewers_per_room_and_address;
     if (!caller.local && full(share, from_there)) {
         return Closing{CloseCode::kShareTaken,
                        "this address has " + numberText(share) +
-                           " viewers in this room, which is all that it may "
-                           "have; close one first"};
+                           " viewers in this room, which is the maximum; close one first"};
     }
     return {};
 }

@@ -63,23 +63,25 @@ struct ListGauge {
     double (*value)(const LightListStats&);
 };
 constexpr std::array kListGauges = {
-    ListGauge{"froxel_lights", "Point and spot lights of the frame sent last.",
+    ListGauge{"froxel_lights", "Point and spot lights of the last frame sent.",
               [](const LightListStats& s) { return static_cast<double>(s.light_count); }},
-    ListGauge{"froxel_light_list_entries", "Light indices over all of its lists.",
+    ListGauge{"froxel_light_list_entries", "Light indices in all lists of the last frame sent.",
               [](const LightListStats& s) { return static_cast<double>(s.entry_count); }},
-    ListGauge{"froxel_light_list_mean_entries", "Mean of its lists that are not empty.",
+    ListGauge{"froxel_light_list_mean_entries",
+              "Mean length of the non-empty lists of the last frame sent.",
               [](const LightListStats& s) { return s.mean; }},
-    ListGauge{"froxel_light_list_p95_entries", "95th percentile of those.",
+    ListGauge{"froxel_light_list_p95_entries", "95th percentile of the lengths of these lists.",
               [](const LightListStats& s) { return static_cast<double>(s.p95); }},
-    ListGauge{"froxel_light_list_largest_entries", "The longest of them.",
+    ListGauge{"froxel_light_list_largest_entries", "Length of the longest of these lists.",
               [](const LightListStats& s) { return static_cast<double>(s.largest); }},
-    ListGauge{"froxel_light_list_clusters", "Clusters of its grid.",
+    ListGauge{"froxel_light_list_clusters", "Clusters in the grid of the last frame sent.",
               [](const LightListStats& s) { return static_cast<double>(s.cluster_count); }},
-    ListGauge{"froxel_light_list_empty_clusters", "Those without a light.",
+    ListGauge{"froxel_light_list_empty_clusters", "Clusters without a light.",
               [](const LightListStats& s) { return static_cast<double>(s.empty_count); }},
-    ListGauge{"froxel_light_list_bytes", "Its lists and light indices in device memory.",
+    ListGauge{"froxel_light_list_bytes", "Device memory of the lists of the last frame sent.",
               [](const LightListStats& s) { return static_cast<double>(s.bytes); }},
-    ListGauge{"froxel_light_list_all_lights", "1 where it has no lists and loops over all lights.",
+    ListGauge{"froxel_light_list_all_lights",
+              "1 if the last frame sent has no lists and loops over all lights.",
               [](const LightListStats& s) { return s.all_lights ? 1.0 : 0.0; }},
 };
 
@@ -126,31 +128,30 @@ struct Metrics::Impl {
     [[nodiscard]] prometheus::MetricFamily logFamily() const;
 
     const std::function<size_t()> session_count;
-    Gauge& viewers = gauge("froxel_viewers", "Viewers connected now.");
-    Gauge& capacity = gauge("froxel_session_capacity", "Sessions that the server takes at once.");
-    Counter& device_losses = counter("froxel_device_losses_total",
-                                     "Times that the device was lost, in the runs before.");
+    Gauge& viewers = gauge("froxel_viewers", "Connected viewers.");
+    Gauge& capacity = gauge("froxel_session_capacity", "Maximum number of sessions.");
+    Counter& device_losses =
+        counter("froxel_device_losses_total", "Device losses in earlier runs.");
     Counter& joined =
-        counter("froxel_viewers_joined_total", "Times that a viewer came in since the start.");
-    Counter& sent = counter("froxel_frames_sent_total", "Pictures sent.");
+        counter("froxel_viewers_joined_total", "Viewers that joined since the start.");
+    Counter& sent = counter("froxel_frames_sent_total", "Frames sent.");
     std::atomic<uint64_t> replaced{0};
     const std::shared_ptr<FrameFates> fates = std::make_shared<FrameFates>();
-    Counter& bytes = counter("froxel_sent_bytes_total", "Bytes of pictures and messages sent.");
+    Counter& bytes = counter("froxel_sent_bytes_total", "Bytes of sent frames and messages.");
     Counter& redraws = counter("froxel_light_list_redraws_total",
-                               "Times that the pictures sent were drawn again since their lists "
-                               "had to grow.");
+                               "Frames drawn again because their lists outgrew their memory.");
     Counter& kept = counter("froxel_frames_kept_total",
-                            "Pictures sent whose surfaces were those of the frame before.");
+                            "Frames sent that reused the surfaces of the previous frame.");
     Counter& peel_overflow =
         counter("froxel_peel_overflow_pixels_total",
-                "Pixels of the pictures sent that have more blended layers than were peeled.");
+                "Pixels of sent frames with more blended layers than were peeled.");
     Histogram& quality =
-        histogram("froxel_frame_quality", "JPEG quality of pictures sent.", kQualities);
-    Histogram& scale =
-        histogram("froxel_frame_scale", "Sides of pictures sent, of those asked for.", kScales);
-    Histogram& queue_delay = histogram("froxel_queue_delay_seconds",
-                                       "What pictures waited on the link, as each was sent.",
-                                       kSeconds);
+        histogram("froxel_frame_quality", "JPEG quality of sent frames.", kQualities);
+    Histogram& scale = histogram("froxel_frame_scale",
+                                 "Side length of sent frames, as a share of the requested one.",
+                                 kScales);
+    Histogram& queue_delay =
+        histogram("froxel_queue_delay_seconds", "Delay of sent frames on the link.", kSeconds);
     std::array<Counter*, kRateReasons.size()> rate_steps{};
     std::array<Counter*, session::kRefinementNames.size()> refinements{};
     std::array<Histogram*, kStages.size()> stages{};
@@ -158,25 +159,24 @@ struct Metrics::Impl {
     prometheus::Family<Histogram>& steps =
         prometheus::BuildHistogram()
             .Name("froxel_frame_step_seconds")
-            .Help(
-                "What one step of a frame took, between which others are served: to begin it, and "
-                "to draw a piece of it.")
+            .Help("Duration of one step of a frame: to begin it, or to draw a piece of it. Other "
+                  "viewers are served between steps.")
             .Register(registry);
     Histogram& begun = steps.Add({{"step", "begin"}}, kSteps);
     Histogram& pieces = steps.Add({{"step", "piece"}}, kSteps);
     Counter& refused_connections =
         counter("froxel_connections_refused_total", "Connections over the limit.");
     prometheus::Family<Counter>& rejects =
-        family("froxel_command_rejects_total", "Messages of viewers answered by an error.");
+        family("froxel_command_rejects_total", "Messages of viewers answered with an error.");
     prometheus::Family<Counter>& closes =
-        family("froxel_websocket_closes_total", "WebSockets that ended, by close code.");
+        family("froxel_websocket_closes_total", "Closed WebSockets, by close code.");
     prometheus::Family<Counter>& upgrades =
-        family("froxel_upgrades_refused_total", "Requests that did not become a WebSocket.");
+        family("froxel_upgrades_refused_total", "Refused WebSocket upgrades.");
     prometheus::Family<Counter>& requests =
-        family("froxel_requests_refused_total", "Requests over HTTP that were not answered.");
+        family("froxel_requests_refused_total", "Refused HTTP requests.");
     std::map<RequestRefusal, Counter*> refused_requests{}; // fixed once it is made
     prometheus::Family<Counter>& pairs = family(
-        "froxel_light_pairs_total", "(light, pixel) pairs of the pictures sent that counted them.");
+        "froxel_light_pairs_total", "(light, pixel) pairs of sent frames with counting turned on.");
     Counter& evaluated = pairs.Add({{"kind", "evaluated"}});
     Counter& contributing = pairs.Add({{"kind", "contributing"}});
     mutable std::mutex watch_mutex;
@@ -191,7 +191,7 @@ Metrics::Metrics(const std::string& version, std::function<size_t()> session_cou
     : impl_(std::make_unique<Impl>(std::move(session_count))) {
     prometheus::BuildGauge()
         .Name("froxel_build_info")
-        .Help("1; the labels say what this server is.")
+        .Help("1; the labels describe this server.")
         .Register(impl_->registry)
         .Add({{"version", version},
               {"protocol",
@@ -212,23 +212,23 @@ Metrics::Metrics(const std::string& version, std::function<size_t()> session_cou
     }
     auto& stages = prometheus::BuildHistogram()
                        .Name("froxel_stage_duration_seconds")
-                       .Help("What the pictures sent took in each stage from command to socket, "
-                             "once for each viewer; queue: of those that show a new command; gpu: "
-                             "of those whose driver tells it.")
+                       .Help("Duration of each stage from command to socket, for sent frames, once "
+                             "for each viewer. queue: only frames that show a new command. gpu: "
+                             "only if the driver reports it.")
                        .Register(impl_->registry);
     for (size_t i = 0; i < kStages.size(); ++i) {
         impl_->stages[i] = &stages.Add({{"stage", kStages[i].name}}, kSeconds);
     }
     auto& steps = prometheus::BuildCounter()
                       .Name("froxel_rate_steps_total")
-                      .Help("Steps down and up with what links carry.")
+                      .Help("Adaptation steps down and up, by reason.")
                       .Register(impl_->registry);
     for (size_t i = 0; i < kRateReasons.size(); ++i) {
         impl_->rate_steps[i] = &steps.Add({{"reason", kRateReasons[i]}});
     }
     auto& refinements = prometheus::BuildCounter()
                             .Name("froxel_refinement_frames_total")
-                            .Help("Pictures sent, by how far they were refined.")
+                            .Help("Frames sent, by their refinement stage.")
                             .Register(impl_->registry);
     for (size_t i = 0; i < session::kRefinementNames.size(); ++i) {
         impl_->refinements[i] =
@@ -260,7 +260,7 @@ void Metrics::sessionClosed() {
 
 void Metrics::frameSent(const FrameRecord& record) {
     impl_->sent.Increment();
-    impl_->kept.Increment(record.stats.kept ? 1 : 0);
+    impl_->kept.Increment(record.stats.surfaces_reused ? 1 : 0);
     impl_->redraws.Increment(static_cast<double>(record.stats.lists.redraw_count));
     impl_->peel_overflow.Increment(static_cast<double>(record.stats.peel.overflow_count));
     for (size_t i = 0; i < kStages.size(); ++i) {
@@ -343,9 +343,8 @@ void Metrics::watchLoad(std::function<double()> load) {
 prometheus::MetricFamily Metrics::Impl::loadFamily() const {
     const std::lock_guard lock(watch_mutex);
     return metricFamily(prometheus::MetricType::Gauge, "froxel_device_load",
-                        "Share of the device's time that sessions need, 0 to 1: by it a new one is "
-                        "let in or not.",
-                        "", {{"", load ? load() : 0.0}});
+                        "Used fraction of the device time that the server admits, 0 to 1.", "",
+                        {{"", load ? load() : 0.0}});
 }
 
 void Metrics::watchScenes(std::function<session::SceneCounts()> scenes) {
@@ -362,18 +361,18 @@ std::vector<prometheus::MetricFamily> Metrics::Impl::sceneFamilies() const {
     const auto number = [](uint64_t value) { return static_cast<double>(value); };
     using prometheus::MetricType;
     return {
-        metricFamily(MetricType::Gauge, "froxel_scenes", "Scenes by where they are.", "state",
+        metricFamily(MetricType::Gauge, "froxel_scenes", "Scenes by state.", "state",
                      {{"resident", number(counts.resident)}, {"loading", number(counts.loading)}}),
         metricFamily(MetricType::Gauge, "froxel_scene_memory_bytes",
-                     "Device memory of scenes, but for the first.", "",
+                     "Device memory of all scenes except the first.", "",
                      {{"", number(counts.bytes)}}),
-        metricFamily(MetricType::Counter, "froxel_scene_loads_total",
-                     "Scenes that were asked for and not there, by what became of them.", "result",
+        metricFamily(MetricType::Counter, "froxel_scene_loads_total", "Loads of scenes, by result.",
+                     "result",
                      {{"loaded", number(counts.loaded_total)},
                       {"failed", number(counts.failed_total)},
                       {"refused", number(counts.refused_total)}}),
         metricFamily(MetricType::Counter, "froxel_scenes_evicted_total",
-                     "Scenes that left the device for others.", "",
+                     "Scenes that left the device to make room for others.", "",
                      {{"", number(counts.evicted_total)}})};
 }
 
@@ -390,7 +389,7 @@ std::vector<prometheus::MetricFamily> Metrics::Impl::stillFamilies() const {
     const still::StillCounts counts = stills();
     const auto number = [](uint64_t value) { return static_cast<double>(value); };
     return {metricFamily(prometheus::MetricType::Counter, "froxel_stills_total",
-                         "Stills by what became of them.", "result",
+                         "Stills and thumbnails, by result.", "result",
                          {{"drawn", number(counts.drawn_total)},
                           {"kept", number(counts.kept_total)},
                           {"refused", number(counts.refused_total)},
@@ -405,15 +404,14 @@ void Metrics::watchLog(std::function<uint64_t()> lost) {
 prometheus::MetricFamily Metrics::Impl::logFamily() const {
     const std::lock_guard lock(watch_mutex);
     return metricFamily(prometheus::MetricType::Counter, "froxel_log_lines_lost_total",
-                        "Lines of the log that its reader did not take.", "",
+                        "Log lines that the log's reader did not take.", "",
                         {{"", log_lost ? static_cast<double>(log_lost()) : 0.0}});
 }
 
 prometheus::MetricFamily Metrics::Impl::sessionFamily() const {
-    return metricFamily(
-        prometheus::MetricType::Gauge, "froxel_sessions",
-        "Sessions with a viewer, or whose lost viewer is waited for; a room is one.", "",
-        {{"", static_cast<double>(session_count())}});
+    return metricFamily(prometheus::MetricType::Gauge, "froxel_sessions",
+                        "Sessions with a viewer, or waiting for a lost one; a room is one session.",
+                        "", {{"", static_cast<double>(session_count())}});
 }
 
 prometheus::MetricFamily Metrics::Impl::memoryFamily() const {
@@ -432,14 +430,14 @@ std::vector<prometheus::MetricFamily> Metrics::Impl::frameFamilies() const {
     };
     using prometheus::MetricType;
     return {metricFamily(MetricType::Counter, "froxel_frames_rendered_total",
-                         "Pictures that left the device.", "", {{"", count(fates->rendered)}}),
+                         "Frames that left the device.", "", {{"", count(fates->rendered)}}),
             metricFamily(MetricType::Counter, "froxel_frames_encoded_total",
-                         "Pictures that left an encoder.", "", {{"", count(fates->encoded)}}),
+                         "Frames that left an encoder.", "", {{"", count(fates->encoded)}}),
             metricFamily(MetricType::Counter, "froxel_frames_sampled_total",
-                         "Frames that were added up to a later picture, of views that rest.", "",
+                         "Frames of static views drawn as samples of a later mean.", "",
                          {{"", count(fates->samples)}}),
             metricFamily(MetricType::Counter, "froxel_frames_dropped_total",
-                         "Pictures begun and not sent.", "reason",
+                         "Frames begun and not sent.", "reason",
                          {{"replaced", count(replaced)},
                           {"not_encoded", count(fates->not_encoded)},
                           {"viewer_gone", count(fates->viewer_gone)},

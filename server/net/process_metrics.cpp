@@ -61,7 +61,7 @@ std::vector<prometheus::MetricFamily> processMetrics() {
     }
     // Resident memory has holes, too, which come and go with what is torn down in which order.
     const auto heap = mallinfo2();
-    add(MetricType::Gauge, "process_heap_used_bytes", "What is allocated of the heap.",
+    add(MetricType::Gauge, "process_heap_used_bytes", "Allocated heap memory.",
         static_cast<double>(heap.uordblks + heap.hblkhd));
     if (const auto count = statusNumber("Threads")) {
         add(MetricType::Gauge, "process_threads", "Threads of the process.", *count);
@@ -70,11 +70,11 @@ std::vector<prometheus::MetricFamily> processMetrics() {
         add(MetricType::Gauge, "process_open_fds", "Open file descriptors.", *count);
     }
     if (rlimit limit{}; getrlimit(RLIMIT_NOFILE, &limit) == 0) {
-        add(MetricType::Gauge, "process_max_fds", "File descriptors that may be open.",
+        add(MetricType::Gauge, "process_max_fds", "Maximum number of open file descriptors.",
             static_cast<double>(limit.rlim_cur));
     }
-    add(MetricType::Gauge, "process_start_time_seconds", "When it began, since 1970.",
-        start_time_s);
+    add(MetricType::Gauge, "process_start_time_seconds",
+        "Start time of the process, in seconds since 1970.", start_time_s);
     if (rusage usage{}; getrusage(RUSAGE_SELF, &usage) == 0) {
         add(MetricType::Counter, "process_cpu_seconds_total", "CPU time of all threads.",
             secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime));

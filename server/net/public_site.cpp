@@ -103,10 +103,9 @@ std::optional<Response> refuseForeign(const Request& request, const Site& site) 
         return {};
     }
     site.metrics->requestRefused(RequestRefusal::kForeign);
-    return apiRefusal(http::status::forbidden,
-                      {"foreign", "",
-                       "pages of other sites may not ask for this; --allow-origin of froxel serve "
-                       "lets one"});
+    return apiRefusal(http::status::forbidden, {"foreign", "",
+                                                "pages of other sites may not request this; "
+                                                "--allow-origin of froxel serve allows a site"});
 }
 
 // What a page of an allowed site needs beside the answer, lest its browser keep it back.
@@ -235,7 +234,7 @@ Response PublicSite::answer(const Request& request,
     }
     if (path == kSocketPath) {
         Response response = textResponse(http::status::upgrade_required,
-                                         "this path speaks WebSocket (version 13) only");
+                                         "this path supports only WebSocket (version 13)");
         response.set(http::field::upgrade, "websocket");
         return response;
     }
@@ -243,8 +242,7 @@ Response PublicSite::answer(const Request& request,
         return file(request, *found, site_->content_policy);
     }
     return textResponse(http::status::not_found,
-                        path == "/" ? "the page is not built; ./deploy/build.sh makes it"
-                                    : "not found");
+                        path == "/" ? "the page is not built; run ./deploy/build.sh" : "not found");
 }
 
 std::optional<HttpSite::CallOff>

@@ -44,7 +44,7 @@ Result<void> settleForm(Request& request) {
         return Error{ErrorCode::kUnsupported,
                      "the Transfer-Encoding " +
                          printable(std::string(request[http::field::transfer_encoding])) +
-                         " is not understood; requests have no body here"};
+                         " is not supported; requests must not have a body"};
     }
     for (const auto name : kLists) {
         const auto lines = request.equal_range(name);

@@ -104,7 +104,7 @@ std::variant<Page, Response> pageIn(const Request& request, const catalogue::Lis
             if (!begin) {
                 return refused(http::status::bad_request, "out_of_range", "after",
                                "after is \"" + printable(said.value) +
-                                   "\", which is no scene of this server");
+                                   "\", which is not a scene of this server");
             }
             page.begin = *begin;
         }
@@ -138,7 +138,7 @@ Response SceneListing::answer(const Request& request, std::string_view path) con
         const auto place = listing->placeOf(id);
         if (!place) {
             return refused(http::status::not_found, "out_of_range", "scene",
-                           "\"" + printable(id) + "\" is no scene of this server");
+                           "\"" + printable(id) + "\" is not a scene of this server");
         }
         const std::lock_guard lock(mutex_);
         return withTag(request, rowOf(*listing, *place, port));

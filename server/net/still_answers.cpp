@@ -199,7 +199,7 @@ HttpSite::CallOff StillAnswers::answer(const Request& request,
     if (auto call_off = waitForScene(early)) {
         return std::move(*call_off);
     }
-    done({unavailable("the scene is being loaded, and too many wait for it")});
+    done({unavailable("the scene is loading, and too many requests wait for it")});
     return nothing;
 }
 
@@ -263,7 +263,7 @@ void StillAnswers::expire(TimePoint now) {
         alarm_(*next);
     }
     for (const auto& one : over) {
-        one->done({unavailable("the scene is still being loaded")});
+        one->done({unavailable("the scene is still loading")});
     }
 }
 

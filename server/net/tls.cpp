@@ -36,8 +36,8 @@ Result<void> Tls::reload() {
     });
     context->use_private_key_file(key_.string(), ssl::context::pem, failure);
     if (encrypted) {
-        return refuse(key_, "is encrypted; right is a key without a passphrase, which openssl pkey "
-                            "makes of it");
+        return refuse(key_,
+                      "is encrypted; expected a key without a passphrase; openssl pkey removes it");
     }
     if (failure) {
         return refuse(key_, failure.message());

@@ -46,7 +46,8 @@ Result<std::vector<std::string>> readTokenFile(const std::filesystem::path& path
         return Error{ErrorCode::kIo, name + " cannot be read"};
     }
     if (tokens.empty()) {
-        return Error{ErrorCode::kInvalidArgument, name + " has no token, so nobody could come in"};
+        return Error{ErrorCode::kInvalidArgument,
+                     name + " contains no token, so nobody could connect"};
     }
     return tokens;
 }

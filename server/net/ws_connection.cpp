@@ -151,7 +151,7 @@ void WsConnection::onAccepted() {
         [strand = stream_.get_executor(), weak = weak_from_this()] {
             asio::post(strand, [weak] {
                 if (const auto self = weak.lock()) {
-                    self->abandon("it said nothing, and another has its place");
+                    self->abandon("it sent nothing, and another connection took its place");
                 }
             });
         },
@@ -296,7 +296,7 @@ void WsConnection::armWriteDeadline(size_t bytes) {
             beast::get_lowest_layer(self->stream_)
                 .socket()
                 .set_option(asio::socket_base::linger(true, 0), ignored);
-            self->abandon("a write was stuck",
+            self->abandon("a write did not finish",
                           static_cast<uint16_t>(protocol::CloseCode::kSlowConsumer));
         }
     });

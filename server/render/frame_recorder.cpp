@@ -60,7 +60,7 @@ void recordPose(const FrameContext& frame) {
 }
 
 void recordPrepass(const FrameContext& frame) {
-    if (frame.plan.depth_prepass && !frame.plan.kept) {
+    if (frame.plan.depth_prepass && !frame.plan.reused) {
         inParts(frame, drawn(frame), frame.costs.depthPrepass(), recordDepthPrepass);
         // prepass depth -> the next pass's equality test
         barrier(frame.slot.cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, kDepthStages,
@@ -127,7 +127,7 @@ void recordVisiblePart(const FrameContext& frame, const vk::Rect2D& region) {
 
 // Depth and ids; what follows reads them in compute.
 void recordVisible(const FrameContext& frame) {
-    if (frame.plan.kept) {
+    if (frame.plan.reused) {
         return;
     }
     if (frame.plan.compute_raster) {
@@ -149,7 +149,7 @@ void radianceToCompute(const vk::raii::CommandBuffer& cmd) {
 
 // Fills the G-buffer; what follows reads it.
 void recordGeometry(const FrameContext& frame) {
-    if (frame.plan.kept) {
+    if (frame.plan.reused) {
         return; // the frame that drew it has the barriers
     }
     if (frame.plan.visibility) {
@@ -220,7 +220,7 @@ void recordReplacement(const FrameContext& frame) {
         recordGeometry(frame);
     } else if (frame.plan.visibility) {
         recordVisible(frame);
-    } else if (!frame.plan.kept) {
+    } else if (!frame.plan.reused) {
         inParts(frame, drawn(frame), frame.costs.depthPrepass(), recordDepthPrepass);
         // depth -> loads
         barrier(cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, Stage::eComputeShader,
@@ -253,7 +253,7 @@ void recordOverlay(const FrameContext& frame) {
 
 // Between a frame and the next one of the view, which has no pass that draws surfaces to come
 // between: what that one loaded, stored and copied -> what this one does.
-void recordKept(const vk::raii::CommandBuffer& cmd) {
+void recordReused(const vk::raii::CommandBuffer& cmd) {
     constexpr vk::PipelineStageFlags2 kAll =
         kShaders | kDepthStages | Stage::eColorAttachmentOutput | Stage::eCopy;
     constexpr vk::AccessFlags2 kWrites =
@@ -267,8 +267,8 @@ void recordKept(const vk::raii::CommandBuffer& cmd) {
 
 // What there is to see, solid, or what a debug view shows in its place.
 void recordSurfaces(const FrameContext& frame) {
-    if (frame.plan.kept) {
-        recordKept(frame.slot.cmd);
+    if (frame.plan.reused) {
+        recordReused(frame.slot.cmd);
     }
     if (frame.plan.spoil_scratch) {
         // the frame before -> fill -> whatever loads or copies
@@ -334,7 +334,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_sh
     frame.pieces.begin(piece_limit, piece_share);
     slot.timestamps.reset();
     recordFreshTargets(slot);
-    if (frame.plan.pose && !frame.plan.pose_kept) {
+    if (frame.plan.pose && !frame.plan.pose_reused) {
         recordPose(frame);
     }
     if (frame.plan.count_samples) {

@@ -16,7 +16,7 @@ constexpr uint64_t kSlotBytes = 16 << 10U;
 
 } // namespace
 
-FrameMemory frameMemory(const FrameBuilder& builder,
+FrameMemory frameMemory(const HostWork& builder,
                         const FramePlan& plan,
                         const FrameInputs& asked,
                         const TargetNeeds& targets,

@@ -5,7 +5,7 @@
 #include "core/frame_stats.h"
 #include "render/frame/need_list.h"
 #include "render/frame/view_targets.h"
-#include "render/frame_builder.h"
+#include "render/host_work.h"
 #include "settings/settings.h"
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct FrameMemory {
 };
 
 // Of a frame that was built and gathered; what slots hold is not yet in it.
-[[nodiscard]] FrameMemory frameMemory(const FrameBuilder& builder,
+[[nodiscard]] FrameMemory frameMemory(const HostWork& builder,
                                       const FramePlan& plan,
                                       const FrameInputs& asked,
                                       const TargetNeeds& targets,

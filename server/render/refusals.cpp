@@ -29,8 +29,7 @@ Result<void> showable(const FrameInputs& inputs, bool specular) {
     const settings::DebugView debug = settings.debug.view;
     const std::string name = "debug_view: " + std::string(settings::nameOf(debug));
     if (inputs.keep_radiance && settings::replacesPicture(debug)) {
-        return Error{ErrorCode::kUnsupported,
-                     name + " has no linear picture; ask for .png or .jpg"};
+        return Error{ErrorCode::kUnsupported, name + " has no linear picture; use .png or .jpg"};
     }
     if (settings::showsGbuffer(debug) && isForward(settings.renderer)) {
         return Error{ErrorCode::kUnsupported,
@@ -61,10 +60,10 @@ Result<void> storable(const FrameInputs& inputs, bool specular) {
 
 // Peeling tells triangles apart and counts what it leaves out. Errors: kUnsupported.
 Result<void>
-peelable(const FrameInputs& inputs, const SceneResources& scene, const Dressing& dressing) {
+peelable(const FrameInputs& inputs, const SceneResources& scene, const MaterialSet& material_set) {
     const auto& traits = scene.shared.device.traits();
     if (inputs.settings.transparency != settings::Transparency::kPeeled ||
-        !dressing.needs.blended) {
+        !material_set.needs.blended) {
         return {};
     }
     const std::string lacks = !traits.visibility_lacks.empty() ? traits.visibility_lacks
@@ -72,7 +71,7 @@ peelable(const FrameInputs& inputs, const SceneResources& scene, const Dressing&
                                                                : "";
     if (!lacks.empty()) {
         return Error{ErrorCode::kUnsupported,
-                     "transparency: peeled is not available, since the device lacks " + lacks +
+                     "transparency: peeled is not available, because the device lacks " + lacks +
                          "; use sorted or weighted"};
     }
     return {};
@@ -80,20 +79,22 @@ peelable(const FrameInputs& inputs, const SceneResources& scene, const Dressing&
 
 } // namespace
 
-Result<void> canDraw(const FrameInputs& inputs, const SceneResources& scene, Dressing& dressing) {
-    if (const auto& why = dressing.visibility_unusable; !why.empty() && needsVisibility(inputs)) {
+Result<void>
+canDraw(const FrameInputs& inputs, const SceneResources& scene, MaterialSet& material_set) {
+    if (const auto& why = material_set.visibility_unusable;
+        !why.empty() && needsVisibility(inputs)) {
         return Error{ErrorCode::kUnsupported, "lighting: compute is not available for renderer " +
                                                   rendererName(inputs) + ", since " + why +
                                                   "; use auto or fragment"};
     }
-    const bool specular = storesSpecular(inputs.settings, dressing.needs.specular);
+    const bool specular = storesSpecular(inputs.settings, material_set.needs.specular);
     if (auto shown = showable(inputs, specular); !shown) {
         return shown;
     }
     if (auto stored = storable(inputs, specular); !stored) {
         return stored;
     }
-    if (auto peeled = peelable(inputs, scene, dressing); !peeled) {
+    if (auto peeled = peelable(inputs, scene, material_set); !peeled) {
         return peeled;
     }
     for (const EffectRow* row : effectRows()) {
@@ -104,9 +105,9 @@ Result<void> canDraw(const FrameInputs& inputs, const SceneResources& scene, Dre
         }
     }
     if (inputs.geometry == GeometryPath::kComputeRaster &&
-        !dressing.visibility().compute_unusable.empty()) {
-        return Error{ErrorCode::kUnsupported, "ids cannot be rastered in compute, since " +
-                                                  dressing.visibility().compute_unusable};
+        !material_set.visibility().compute_unusable.empty()) {
+        return Error{ErrorCode::kUnsupported, "ids cannot be rasterised in compute, because " +
+                                                  material_set.visibility().compute_unusable};
     }
     return {};
 }
@@ -135,20 +136,19 @@ std::string pictureWords(const settings::ViewSettings& settings) {
 }
 
 Error tooLongInPieces(const settings::Size& size, const FramePieces& pieces, Seconds limit) {
-    return {
-        ErrorCode::kTooLong,
-        fmt::format("a picture of {}x{}, cut into {} pieces that each go through its triangles, "
-                    "takes about {:.3g} s of this device; at most {:.3g} s a frame are allowed: "
-                    "ask for fewer lights, fewer effects, or a smaller picture",
-                    size.width_px, size.height_px, pieces.count(), pieces.estimate().count(),
-                    limit.count()),
-        pieces.estimate() / limit};
+    return {ErrorCode::kTooLong,
+            fmt::format("a picture of {}x{} in {} pieces, each of which processes all triangles, "
+                        "takes about {:.3g} s of this device; a frame may take {:.3g} s. "
+                        "Use fewer lights, fewer effects, or a smaller picture",
+                        size.width_px, size.height_px, pieces.count(), pieces.estimate().count(),
+                        limit.count()),
+            pieces.estimate() / limit};
 }
 
 Error tooManyToCap(uint32_t light_count) {
     return {ErrorCode::kCapacity,
-            fmt::format("list_cap: the lists of {} lights hold more than {} entries before they "
-                        "are capped; ask for fewer or smaller lights, or for fewer clusters",
+            fmt::format("list_cap: the lists of {} lights have more than {} entries before "
+                        "capping; use fewer or smaller lights, or fewer clusters",
                         light_count, kHostListEntries)};
 }
 

@@ -9,13 +9,13 @@
 
 namespace froxel::render {
 
-class Dressing;
+class MaterialSet;
 class SceneResources;
 
-// Whether this device and these settings can give what is asked for; `dressing` is that of the
+// Whether this device and these settings can give what is asked for; `material_set` is that of the
 // settings' variant. Errors: kUnsupported, saying what lacks and what would do.
 [[nodiscard]] Result<void>
-canDraw(const FrameInputs& inputs, const SceneResources& scene, Dressing& dressing);
+canDraw(const FrameInputs& inputs, const SceneResources& scene, MaterialSet& material_set);
 
 // What takes memory of a picture, in words: "a picture of 640x360 with 20000 lights".
 [[nodiscard]] std::string pictureWords(const settings::ViewSettings& settings);

@@ -3,10 +3,10 @@
 #include "core/assert.h"
 #include "gpu/upload.h"
 #include "render/frame/frame_slot.h"
-#include "render/frame_maker.h"
 #include "render/fresh_targets.h"
 #include "render/refusals.h"
 #include "render/scene/scene_resources.h"
+#include "render/view_frames.h"
 #include "render/visibility_readback.h"
 #include "scene/motion.h"
 
@@ -182,7 +182,7 @@ struct ViewRenderer::Impl {
     [[nodiscard]] Result<void> redraw(FrameSlot& slot);
 
     SceneResources& scene;
-    FrameMaker maker;
+    ViewFrames maker;
     std::vector<std::unique_ptr<FrameSlot>> slots;
     std::deque<FrameSlot*> pending; // begun, oldest first
 };
@@ -200,13 +200,13 @@ Result<void> ViewRenderer::Impl::redraw(FrameSlot& slot) {
     while (slot.stale || !maker.accepts(slot)) {
         const FrameInputs inputs = slot.inputs;
         auto recorded = maker.record(slot, inputs, slots);
-        while (recorded && *recorded == FrameMaker::Made::kHalf) {
+        while (recorded && *recorded == ViewFrames::Made::kHalf) {
             recorded = maker.record(slot, inputs, slots);
         }
         if (!recorded) {
             return recorded.error();
         }
-        FROXEL_ASSERT(*recorded == FrameMaker::Made::kFrame,
+        FROXEL_ASSERT(*recorded == ViewFrames::Made::kFrame,
                       "whoever waits for frames has them made at once");
         while (slot.unfinished()) {
             submitPiece(slot);
@@ -241,9 +241,9 @@ uint32_t ViewRenderer::inFlight() const {
 Result<FrameWork> ViewRenderer::begin(const FrameInputs& inputs) {
     FROXEL_ASSERT(canSubmit(), "begin needs a free readback slot and no frame half submitted");
     FrameSlot* slot = impl_->freeSlot();
-    // Held, so that the view, when it wears it, finds the one that was looked at.
-    const auto dressing = impl_->scene.dressing(inputs.settings.material_variant);
-    if (auto able = canDraw(inputs, impl_->scene, *dressing); !able) {
+    // Held, so that the view later uses the one that was checked here.
+    const auto material_set = impl_->scene.material_set(inputs.settings.material_variant);
+    if (auto able = canDraw(inputs, impl_->scene, *material_set); !able) {
         return able.error();
     }
     try {
@@ -252,10 +252,10 @@ Result<FrameWork> ViewRenderer::begin(const FrameInputs& inputs) {
         if (!recorded) {
             return recorded.error();
         }
-        if (*recorded != FrameMaker::Made::kFrame) {
+        if (*recorded != ViewFrames::Made::kFrame) {
             return FrameWork{.estimate = Seconds(0),
                              .piece_count = 0,
-                             .half_built = *recorded == FrameMaker::Made::kHalf};
+                             .half_built = *recorded == ViewFrames::Made::kHalf};
         }
         impl_->pending.push_back(slot);
     } catch (const vk::OutOfDeviceMemoryError&) {
@@ -373,7 +373,7 @@ Result<RenderedFrame> ViewRenderer::collect() {
 Result<Visibility> ViewRenderer::readVisibility(const scene::Scene& scene) {
     FROXEL_ASSERT(impl_->maker.targets(), "readVisibility needs a frame");
     try {
-        return copyVisibility(impl_->scene, impl_->maker.dressing(), *impl_->maker.targets(),
+        return copyVisibility(impl_->scene, impl_->maker.material_set(), *impl_->maker.targets(),
                               scene);
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice,

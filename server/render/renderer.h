@@ -5,6 +5,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/frame_stats.h"
+#include "core/frame_work.h"
 #include "core/linear_image.h"
 #include "core/pixel_view.h"
 #include "core/visibility.h"
@@ -23,16 +24,6 @@ namespace froxel::render {
 class DeviceResources;
 class SceneResources;
 class ViewEffects;
-
-// What a frame will ask of the device.
-struct FrameWork {
-    Seconds estimate{0};
-    double limit_share = 0;   // of the longest that a frame may take
-    uint32_t piece_count = 1; // 0: not yet, nothing runs
-    // Why not yet: the host's part has begun, and goes on when begin() gets the same inputs. Else
-    // variants that it needs are being made.
-    bool half_built = false;
-};
 
 struct RenderedFrame {
     PixelLease pixels; // with the radiance where it was to be kept

@@ -81,7 +81,7 @@ class IdNames {
 } // namespace
 
 Visibility copyVisibility(SceneResources& resources,
-                          Dressing& dressing,
+                          MaterialSet& material_set,
                           const ViewTargets& targets,
                           const scene::Scene& scene) {
     const size_t count = size_t{targets.size.width_px} * targets.size.height_px;
@@ -104,7 +104,7 @@ Visibility copyVisibility(SceneResources& resources,
                                                      : vk::ImageAspectFlagBits::eDepth,
                          readback.buffer, count * sizeof(uint32_t));
     });
-    IdNames names(scene, dressing.visibility());
+    IdNames names(scene, material_set.visibility());
     const std::byte* ids = readback.buffer.mapped;
     const std::byte* depths = ids + count * sizeof(uint32_t);
     for (size_t i = 0; i < count; ++i) {

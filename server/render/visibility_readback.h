@@ -9,7 +9,7 @@
 
 namespace froxel::render {
 
-class Dressing;
+class MaterialSet;
 struct ViewTargets;
 
 // Draws the solid surfaces of `inputs` by the visibility passes, without lights, and reads them
@@ -21,7 +21,7 @@ readVisibility(Renderer& renderer, const scene::Scene& scene, FrameInputs inputs
 // The same of a frame that took the visibility passes and is complete, out of its targets.
 // Throws vk::SystemError.
 [[nodiscard]] Visibility copyVisibility(SceneResources& resources,
-                                        Dressing& dressing,
+                                        MaterialSet& material_set,
                                         const ViewTargets& targets,
                                         const scene::Scene& scene);
 

@@ -53,7 +53,7 @@ Json toJson(const PeelStats& peel) {
 Json toJson(const ShadowStats& shadows) {
     return {{"lights", shadows.light_count},
             {"maps", shadows.map_count},
-            {"kept", shadows.kept_count},
+            {"kept", shadows.reused_count},
             {"draws", shadows.draw_count},
             {"triangles", shadows.triangle_count}};
 }
@@ -71,14 +71,10 @@ Json memoryOf(const FrameDetails& details) {
 Json frameReport(const FrameStats& stats) {
     const FrameDetails none;
     const FrameDetails& details = stats.details ? *stats.details : none;
-    Json json = {{"kept", stats.kept},
-                 {"triangles", stats.triangle_count},
-                 {"draws", stats.draw_count},
-                 {"grid", toJson(stats.grid)},
-                 {"light_lists", toJson(stats.lists)},
-                 {"pairs", toJson(stats.pairs)},
-                 {"peel", toJson(stats.peel)},
-                 {"plan", details.plan},
+    Json json = {{"kept", stats.surfaces_reused},      {"triangles", stats.triangle_count},
+                 {"draws", stats.draw_count},          {"grid", toJson(stats.grid)},
+                 {"light_lists", toJson(stats.lists)}, {"pairs", toJson(stats.pairs)},
+                 {"peel", toJson(stats.peel)},         {"plan", details.plan},
                  {"memory_bytes", memoryOf(details)}};
     if (stats.shadows.light_count > 0) {
         json["shadows"] = toJson(stats.shadows);

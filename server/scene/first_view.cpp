@@ -233,7 +233,7 @@ FirstView firstViewOf(const Scene& scene, const settings::Sphere& sphere_world) 
     if (found != scene.cameras.begin()) {
         view.remark = remarkOf("CAMERA_SEES_NOTHING",
                                "camera '" + printable(scene.cameras[0].name, 80) +
-                                   "' sees nothing of the scene; another view is the first");
+                                   "' sees nothing of the scene; another view is shown first");
     }
     if (view.camera || scene.instances.empty()) {
         return view;
@@ -245,8 +245,8 @@ FirstView firstViewOf(const Scene& scene, const settings::Sphere& sphere_world) 
     if (const auto side = betterSide(scene)) {
         view.toward_eye = *side;
         view.remark = remarkOf("FACES_LOOK_AWAY",
-                               "hardly any surface faces the usual view, from above the front "
-                               "right; the first view is from where most is seen");
+                               "hardly any surface faces the usual view from above, front and "
+                               "right; the first view is from the corner that most surfaces face");
     }
     return view;
 }

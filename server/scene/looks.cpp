@@ -122,17 +122,16 @@ void clusters(ViewSettings& to, bool software) {
 }
 
 constexpr std::array kLooks = {
-    Look{"evening", "Evening", "Warm lamps close to the walls and floors, dusk in the windows",
+    Look{"evening", "Evening", "Warm lamps close to walls and floors, dusk in the windows",
          evening},
-    Look{"noon", "Noon", "Bright light from all around, and lamps that hardly show", noon},
-    Look{"mist", "Mist", "Cool lights adrift in thin fog", mist},
+    Look{"noon", "Noon", "Bright studio light, and faint lamps", noon},
+    Look{"mist", "Mist", "Cool lights in thin fog", mist},
     Look{"toon", "Toon", "Pools of light in steps, dark outlines", toon},
     Look{"rainbow", "Rainbow", "A thousand lights of every hue all over the scene", rainbow},
-    Look{"clusters", "Clusters", "How many lights the list of each pixel's cluster holds",
-         clusters},
-    Look{"ramp", "Ramp", "Toon by a ramp over the angle of each light alone", ramp},
-    Look{"glow", "Glow", "Matt surfaces whose bright light spreads by a small kernel", spreading},
-    Look{"matt", "Matt", "Nothing but light that surfaces scatter", matt},
+    Look{"clusters", "Clusters", "Number of lights in the list of each pixel's cluster", clusters},
+    Look{"ramp", "Ramp", "Toon with a ramp over the angle of each light", ramp},
+    Look{"glow", "Glow", "Diffuse surfaces with a small bloom kernel", spreading},
+    Look{"matt", "Matt", "Only diffuse light", matt},
     Look{"gloss", "Gloss", "Blinn-Phong highlights; normals are stored as a sphere map", gloss},
     Look{"blinn", "Blinn", "Blinn-Phong highlights; normals are stored by two components", blinn},
 };

@@ -98,7 +98,7 @@ Fault faultIn(const DeformedMesh& mesh, const Scene& scene) {
     const auto& primitives = scene.meshes[mesh.mesh].primitives;
     if (mesh.deformations.size() != primitives.size()) {
         return "deformations are " + std::to_string(mesh.deformations.size()) +
-               "; right is one for each primitive";
+               "; expected one for each primitive";
     }
     const size_t joint_count = mesh.skin == kNone ? 0 : motion.skins[mesh.skin].joints.size();
     for (size_t p = 0; p < primitives.size(); ++p) {
@@ -112,7 +112,7 @@ Fault faultIn(const DeformedMesh& mesh, const Scene& scene) {
 
 Fault faultIn(const Skin& skin, size_t node_count) {
     if (skin.joints.empty() || skin.joint_from_object.size() != skin.joints.size()) {
-        return "right are joints, and an inverse bind matrix for each";
+        return "expected joints, and an inverse bind matrix for each";
     }
     for (const uint32_t joint : skin.joints) {
         if (Fault fault = beyond("a joint", joint, node_count)) {

@@ -23,7 +23,7 @@ template <class T>
 Fault faultIn(const std::vector<T>& stream, const char* name, size_t count, bool optional) {
     if (stream.size() != count && !(optional && stream.empty())) {
         return std::string(name) + " has " + std::to_string(stream.size()) +
-               " elements; right is one for each of " + std::to_string(count) + " positions";
+               " elements; expected one for each of " + std::to_string(count) + " positions";
     }
     for (size_t i = 0; i < stream.size(); ++i) {
         if (!isFinite(stream[i])) {
@@ -62,7 +62,7 @@ Fault faultIn(const Primitive& p) {
         }
     }
     if (p.indices.size() % 3 != 0) {
-        return "indices are " + std::to_string(p.indices.size()) + "; right is three a triangle";
+        return "indices are " + std::to_string(p.indices.size()) + "; expected three a triangle";
     }
     for (size_t i = 0; i < p.indices.size(); ++i) {
         if (p.indices[i] >= count) {
@@ -88,7 +88,7 @@ Fault faultIn(const TextureSlot& slot, const char* name, const Scene& scene) {
         return of + "texture names an image or a sampler that is not there";
     }
     if (slot.texcoord > 1) {
-        return of + "texcoord is " + std::to_string(slot.texcoord) + "; right is 0 or 1";
+        return of + "texcoord is " + std::to_string(slot.texcoord) + "; expected 0 or 1";
     }
     if (!isFinite(slot.offset)) {
         return of + "offset is not finite";

@@ -78,7 +78,7 @@ Command decode(const v1::SetCamera& camera, FieldValidator& fields) {
     }
     if (command.yfov_rad && command.half_height_m) {
         fields.fail(RejectCode::kOutOfRange, settings::kHalfHeightRange.field,
-                    "comes together with fov_deg; a camera has one of them");
+                    "is set together with fov_deg; set one of them");
     }
     return command;
 }
@@ -120,7 +120,8 @@ Command decode(const v1::SetLights& lights, FieldValidator& fields) {
     }
     command.clear_box = lights.clear_box();
     if (command.box && command.clear_box) {
-        fields.fail(RejectCode::kOutOfRange, "clear_box", "comes together with box; send one");
+        fields.fail(RejectCode::kOutOfRange, "clear_box",
+                    "is set together with box; send one of them");
     }
     if (lights.has_time_s()) {
         command.time_s = fields.number(settings::kTimeRange, lights.time_s());
@@ -166,7 +167,7 @@ Command decode(const v1::SetGrid& set, FieldValidator& fields) {
     }
     if (command.size && command.automatic.value_or(false)) {
         fields.fail(RejectCode::kOutOfRange, "automatic",
-                    "is true and comes together with grid; send one");
+                    "is true together with grid; send one of them");
     }
     return command;
 }
@@ -285,7 +286,7 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
     default:
         break;
     }
-    fields.fail(RejectCode::kUnsupported, "body", "is no command that this server knows");
+    fields.fail(RejectCode::kUnsupported, "body", "is not a command of this server");
     return Ping{};
 }
 

@@ -56,8 +56,7 @@ struct Delivery {
 // What a frame was made with.
 struct Delivered {
     double scale = 1;
-    settings::Encoding
-        encoding; // with the frame's own codec: of a refined one another than asked for
+    settings::Encoding encoding; // of this frame; a refined frame may have another codec
     Refinement refinement = Refinement::kInteractive;
     uint32_t rung = 0;
 };

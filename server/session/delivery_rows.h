@@ -15,13 +15,11 @@ inline constexpr std::array kDeliveryRows = {
         settings::Range<double>{"target_fps", 0, 240},
         "target_fps",
         {"Target frame rate",
-         "Frames a second that a moving view keeps at the expense of its resolution; 0: none",
-         "fps"}),
+         "Frame rate that a moving view keeps by lowering its resolution; 0: none", "fps"}),
     settings::row<&DeliverySettings::refine>(
         settings::Names{"refine", settings::kRefineNames},
         "refine",
-        {"Refinement", "Quality that a resting picture is refined to; lossless: by PNG, which "
-                       "viewers must decode"}),
+        {"Refinement", "Quality of a static picture; lossless: PNG, which viewers must decode"}),
 };
 
 } // namespace froxel::session

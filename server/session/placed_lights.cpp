@@ -25,7 +25,7 @@ replacedBy(const std::string& field, const v1::PlacedLight& light, FieldValidato
     using Of = settings::LightRef::Of;
     if (light.has_replaces_seeded() && light.has_replaces_scene()) {
         fields.fail(RejectCode::kOutOfRange, field + ".replaces_scene",
-                    "is there beside replaces_seeded; a light stands for one");
+                    "is set together with replaces_seeded; a light replaces at most one");
     }
     if (light.has_replaces_seeded()) {
         return settings::LightRef{Of::kSeed,
@@ -151,7 +151,7 @@ std::optional<Rejection> faultOf(const std::string& field, const settings::Place
     if (light.kind == settings::LightKind::kArea && radius_m < corner_m) {
         return outOfRange(field + ".radius_m",
                           "is " + numberText(radius_m) +
-                              "; a rectangle's corners must lie within it, here " +
+                              "; the rectangle's corners must lie within it; they are at " +
                               numberText(corner_m));
     }
     if (light.inner_cone_deg > light.outer_cone_deg) {
@@ -180,7 +180,7 @@ std::optional<std::pair<uint32_t, uint32_t>> rivals(const LightsById& lights) {
 CommandResult<settings::PlacedLights> kept(const LightsById& by_id) {
     if (const auto both = rivals(by_id)) {
         return outOfRange("lights", numberText(both->first) + " and " + numberText(both->second) +
-                                        " would stand for the same light; only one can");
+                                        " would replace the same light; only one can");
     }
     if (by_id.size() > settings::kPlacedCountRange.max) {
         return outOfRange("lights", "would be " + numberText(by_id.size()) + "; at most " +
@@ -207,7 +207,7 @@ SetPlacedLights decodePlacedLights(const v1::PlacedLights& set, FieldValidator& 
         command.lights.push_back(decodeLight(field, set.lights(i), fields));
         if (!ids.insert(set.lights(i).id()).second) {
             fields.fail(RejectCode::kOutOfRange, field + ".id",
-                        "is " + numberText(set.lights(i).id()) + "; another light has it");
+                        "is " + numberText(set.lights(i).id()) + "; another light already has it");
         }
     }
     return command;
@@ -219,7 +219,7 @@ CommandResult<settings::PlacedLights> changed(const settings::PlacedLights& ligh
     for (size_t i = 0; i < change.remove.size(); ++i) {
         if (by_id.erase(change.remove[i]) == 0) {
             return outOfRange(element("remove", static_cast<int>(i)),
-                              "is " + numberText(change.remove[i]) + "; there is no such light");
+                              "is " + numberText(change.remove[i]) + "; no such light exists");
         }
     }
     for (size_t i = 0; i < change.lights.size(); ++i) {
@@ -228,7 +228,7 @@ CommandResult<settings::PlacedLights> changed(const settings::PlacedLights& ligh
         const auto [light, added] = by_id.try_emplace(wanted.id);
         if (added && !wanted.position_world) {
             return outOfRange(field + ".position",
-                              "is missing; light " + numberText(wanted.id) + " is not there yet");
+                              "is missing; light " + numberText(wanted.id) + " does not exist yet");
         }
         apply(wanted, light->second);
         if (auto fault = faultOf(field, light->second)) {
@@ -255,7 +255,7 @@ CommandResult<settings::PlacedLights> parseLightSet(std::string_view json) {
     }
     if (command.clear || !command.remove.empty()) {
         const std::string field = command.clear ? "clear" : "remove";
-        return outOfRange(field, "is there; a light set has lights alone");
+        return outOfRange(field, "is set; a light set may contain only lights");
     }
     return changed({}, command);
 }
@@ -281,7 +281,7 @@ v1::PlacedLights changeOf(const settings::PlacedLights& told, const settings::Pl
 CommandResult<settings::PlacedLights> withPicked(const settings::PlacedLights& lights,
                                                  const settings::PlacedLight& picked) {
     if (lights.find(picked.id) != nullptr) {
-        return outOfRange("id", "is " + numberText(picked.id) + "; another light has it");
+        return outOfRange("id", "is " + numberText(picked.id) + "; another light already has it");
     }
     if (auto fault = faultOf(element("lights", 0), picked)) {
         return *fault;
@@ -294,7 +294,7 @@ CommandResult<settings::PlacedLights> withPicked(const settings::PlacedLights& l
 std::string lightSetJson(const settings::PlacedLights& lights) {
     std::string json;
     const auto written = google::protobuf::util::MessageToJsonString(changeOf({}, lights), &json);
-    FROXEL_ASSERT(written.ok(), "a light set is JSON");
+    FROXEL_ASSERT(written.ok(), "a light set must be JSON");
     return json;
 }
 

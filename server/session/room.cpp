@@ -96,7 +96,7 @@ CommandResult<void> Room::giveControl(MemberId from, MemberId to) {
     if (receiver == nullptr || receiver->away) {
         return Rejection{RejectCode::kOutOfRange, 0, "member_id",
                          "member_id is " + numberText(to) +
-                             (receiver == nullptr ? "; no such viewer is in this room"
+                             (receiver == nullptr ? "; this room has no such viewer"
                                                   : "; this viewer's connection is lost")};
     }
     if (to != from) {

@@ -42,7 +42,7 @@ Result<settings::PlacedLight> pickNone(const settings::ViewSettings& /*settings*
                                        double /*time_s*/,
                                        const std::optional<motion::Playing>& /*playing*/,
                                        const glm::dvec2& /*at*/) {
-    return Error{ErrorCode::kInvalidArgument, "is at no light"};
+    return Error{ErrorCode::kInvalidArgument, "hits no light"};
 }
 
 SessionDefaults defaultsFor(DeviceKind kind) {

@@ -67,7 +67,7 @@ struct Reducer {
                 names += (names.empty() ? "" : ", ") + printable(camera.name);
             }
             return outOfRange("name", "\"" + printable(command.name) +
-                                          "\" is no camera of this scene; it has " +
+                                          "\" is not a camera of this scene; it has " +
                                           (names.empty() ? "none" : printable(names, 400)));
         }
         state.settings.camera = found->camera;
@@ -124,7 +124,7 @@ struct Reducer {
         const uint32_t number = state.settings.animation.number;
         if (number == 0) {
             return outOfRange("animation_time",
-                              "is " + numberText(time_s) + "; no animation is chosen");
+                              "is " + numberText(time_s) + "; no animation is selected");
         }
         state.playback.seek(time_s, SessionState::secondsOf(now));
         return {};

@@ -17,7 +17,7 @@ struct SessionState {
     DeliverySettings delivery;
     LightClock light_clock;
     CommandStamp applied; // newest accepted command that sets state
-    uint64_t version = 1; // grows whenever anything above but `applied` is set anew, or below
+    uint64_t version = 1; // grows with each change of any other member except `applied`
     settings::CodecSet decodable = settings::commonCodecs(); // by all who see it
     uint64_t key_requests = 0;                               // key frames asked for so far
     motion::Playback playback{};        // of the scene's animations, by secondsOf(the host's clock)

@@ -381,7 +381,7 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
             out.set_gpu_us(saturated(*pass.gpu_us));
         }
     }
-    header.set_surfaces_kept(record.stats.kept);
+    header.set_surfaces_kept(record.stats.surfaces_reused);
     fillLists(header, record.stats.lists);
     if (record.stats.grid.x > 0) {
         fill(*header.mutable_grid(), record.stats.grid);
@@ -394,7 +394,7 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
         header.mutable_shadows()->set_lights(shadows.light_count);
         header.mutable_shadows()->set_maps(shadows.map_count);
         header.mutable_shadows()->set_triangles(shadows.triangle_count);
-        header.mutable_shadows()->set_maps_kept(shadows.kept_count);
+        header.mutable_shadows()->set_maps_kept(shadows.reused_count);
     }
     if (const PeelStats& peel = record.stats.peel; peel.layer_count > 0) {
         header.mutable_peel()->set_layers(peel.layer_count);

@@ -20,14 +20,15 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::lighting>(
         Names{"lighting", kLightingStageNames},
         "lighting",
-        {"Lighting stage", "Shader stage that adds up lights; auto: on a CPU device fragment for "
-                           "forward renderers and for light from around alone, else compute"}),
+        {"Lighting stage",
+         "Shader stage that adds up lights; auto: compute, except on a CPU device, where forward "
+         "renderers and pictures with the environment alone use fragment"}),
     row<&ViewSettings::shading>(Names{"shading", kShadingModelNames},
                                 "shading",
                                 {"Shading model",
                                  "Reflection model of surfaces: physically based, its diffuse part "
                                  "alone, or Blinn-Phong highlights",
-                                 "", "lambert: a third of the time for each light"}),
+                                 "", "lambert: each light takes a third of the time"}),
     row<&ViewSettings::gbuffer, &GbufferLayout::normal>(
         Names{"gbuffer_normal", kNormalEncodingNames},
         "gbuffer.normal",
@@ -46,22 +47,23 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::light_loop>(
         Names{"light_loop", kLightLoopNames},
         "light_loop",
-        {"Light lists", "Lights that each pixel loops over: those listed for its cluster, or all; "
-                        "auto: all where lists cannot pay"}),
+        {"Light lists", "Lights that each pixel loops over: those in its cluster's list, or all; "
+                        "auto: all if lists save no time"}),
     row<&ViewSettings::list_cap>(
         Range<uint32_t>{"list_cap", 0, 65'535},
         "list_cap",
-        {"List cap", "Most lights that one list keeps, the strongest first; 0: all of them", "",
-         "faster, darker; lists are made on the host"}),
+        {"List cap", "Maximum number of lights in a list, the strongest ones; 0: no limit", "",
+         "faster and darker; the host builds the lists"}),
     row<&ViewSettings::transparency>(
         Names{"transparency", kTransparencyNames},
         "transparency",
         {"Transparency", "Order in which overlapping blended surfaces are combined", "",
-         "weighted: as sorted; peeled: two passes over the glass for each layer"}),
+         "weighted: same as sorted; peeled: two passes over blended surfaces for each layer"}),
     row<&ViewSettings::peel_layers>(kPeelLayersRange,
                                     "peel_layers",
-                                    {"Peeled layers", "Most layers that peeled transparency draws",
-                                     "", "each layer: what is visible of it"}),
+                                    {"Peeled layers",
+                                     "Maximum number of layers of peeled transparency", "",
+                                     "each layer: its visible pixels"}),
     row<&ViewSettings::count_pairs>(
         Switch{"count_pairs"},
         "count_pairs",
@@ -71,7 +73,7 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::debug, &Debug::view>(
         Names{"debug_view", kDebugViewNames},
         "debug_view",
-        {"Debug view", "Picture of the renderer's data, in place of the lit picture or over it", "",
+        {"Debug view", "View of the renderer's data, in place of the lit picture or over it", "",
          "no lighting, one pass; lines: one pass more"}),
     row<&ViewSettings::debug, &Debug::scale_max>(
         Range<double>{"debug_scale_max", 0, 1e6},
@@ -82,13 +84,13 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::lights, &Lights::count>(kLightCountRange,
                                                "lights.count",
                                                {"Number of lights",
-                                                "Moving point lights that are placed from the seed",
-                                                "", "each light: what its radius reaches"}),
+                                                "Number of moving point lights, placed by the seed",
+                                                "", "each light: the pixels within its radius"}),
     row<&ViewSettings::lights, &Lights::radius_m>(
         kLightRadiusRange,
         "lights.radius_m",
         {"Light radius", "Distance at which a light's brightness reaches exactly 0", "m",
-         "grows with its square and more"}),
+         "grows at least with its square"}),
     row<&ViewSettings::lights, &Lights::intensity>(
         kLightIntensityRange,
         "lights.intensity",
@@ -97,33 +99,32 @@ inline constexpr std::array kSettingRows = {
         Range<double>{"light_cutoff", 0, 1'000},
         "lights.cutoff",
         {"Light cutoff",
-         "Irradiance below which a light ends before its radius; 0: no earlier than its radius", "",
+         "Irradiance at which a light ends before its radius; 0: never before its radius", "",
          "saves time; darker"}),
     row<&ViewSettings::lights, &Lights::cutoff_compensated>(
         Switch{"light_cutoff_compensated"},
         "lights.cutoff_compensated",
-        {"Compensate cutoff", "Brightens lights that the cutoff ends early by what they lose", "",
+        {"Compensate cutoff", "Brightens lights by the light that the cutoff removes", "",
          "nothing"}),
     row<&ViewSettings::lights, &Lights::seed>(
         Range<uint32_t>{"seed", 0, std::numeric_limits<uint32_t>::max()},
         "lights.seed",
-        {"Seed", "Number from which the lights' places, colours and paths are drawn"}),
+        {"Seed", "Random seed of the lights' positions, colours and paths"}),
     row<&ViewSettings::lights, &Lights::places>(Names{"light_places", kLightPlacesNames},
                                                 "lights.places",
                                                 {"Light places",
                                                  "Space in which the seeded lights move: all of "
                                                  "their box, or close to the scene's surfaces"}),
-    row<&ViewSettings::lights, &Lights::palette>(Names{"light_palette", kLightPaletteNames},
-                                                 "lights.palette",
-                                                 {"Light colours",
-                                                  "Colours of the seeded lights: every hue, or "
-                                                  "those of flames and bulbs, of daylight, or of "
-                                                  "a blue sky"}),
+    row<&ViewSettings::lights, &Lights::palette>(
+        Names{"light_palette", kLightPaletteNames},
+        "lights.palette",
+        {"Light colours",
+         "Colours of the seeded lights: every hue, flames and bulbs, daylight, or a blue sky"}),
     row<&ViewSettings::lights, &Lights::animate>(Switch{"animate"},
                                                  "lights.animate",
                                                  {"Move lights",
                                                   "Moves the seeded lights along their paths", "",
-                                                  "each frame is drawn anew"}),
+                                                  "every frame must be drawn"}),
     row<&ViewSettings::lights, &Lights::speed>(
         Range<double>{"light_speed", 0, 100},
         "lights.speed",
@@ -131,23 +132,22 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::lights, &Lights::ambient>(
         Range<double>{"ambient", 0, 1'000},
         "lights.ambient",
-        {"Ambient light",
-         "Factor on the even light that surfaces get where the environment is off"}),
+        {"Ambient light", "Factor on the constant light of surfaces while the environment is off"}),
     row<&ViewSettings::lights, &Lights::scene_lights>(Switch{"scene_lights"},
                                                       "lights.scene_lights",
                                                       {"Lights of the file",
-                                                       "Uses the lights that the scene's file has",
-                                                       "", "each light: what its radius reaches"}),
+                                                       "Uses the lights of the scene's file", "",
+                                                       "each light: the pixels within its radius"}),
     row<&ViewSettings::lights, &Lights::scene_light_intensity>(
         kSceneLightIntensityRange,
         "lights.scene_light_intensity",
-        {"File light brightness",
-         "Factor on the brightness of every light that the scene's file has"}),
+        {"File light brightness", "Factor on the brightness of every light of the scene's file"}),
 
     row<&ViewSettings::animation, &Animation::playing>(
         Switch{"animation_playing"},
         "animation.playing",
-        {"Play animation", "Plays the scene's animation", "", "what moves is drawn anew"}),
+        {"Play animation", "Plays the scene's animation", "",
+         "moving surfaces are drawn in every frame"}),
     row<&ViewSettings::animation, &Animation::speed>(
         Range<double>{"animation_speed", -100, 100},
         "animation.speed",
@@ -159,20 +159,20 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::animation, &Animation::fade_s>(
         Range<double>{"animation_fade", 0, 10},
         "animation.fade_s",
-        {"Cross-fade", "Time in which one animation blends into the next", "s",
-         "both animations are sampled meanwhile"}),
+        {"Cross-fade", "Duration of the transition to another animation", "s",
+         "both animations are sampled during the transition"}),
 
     row<&ViewSettings::environment, &Environment::light>(
         Names{"environment", kEnvironmentLightNames},
         "environment.light",
         {"Environment light",
-         "Light from all around: none, a studio, or the panorama of --environment-file", "",
-         "not off: a lookup at every pixel; the first picture waits a second"}),
+         "Light from all directions: none, a studio, or the panorama of --environment-file", "",
+         "not off: a lookup at every pixel"}),
     row<&ViewSettings::environment, &Environment::rotation_deg>(
         Range<double>{"environment_rotation", -180, 180},
         "environment.rotation_deg",
         {"Environment rotation",
-         "Turn of the environment about the world's y axis, from z towards x", "deg"}),
+         "Rotation of the environment about the world's y axis, from z towards x", "deg"}),
     row<&ViewSettings::environment, &Environment::strength>(
         Range<double>{"environment_strength", 0, 1'000},
         "environment.strength",
@@ -185,8 +185,8 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::environment, &Environment::blur>(
         Range<double>{"environment_blur", 0, 1},
         "environment.blur",
-        {"Background blur", "Blur of the environment behind the scene, as the roughness of a "
-                            "surface that would mirror it so"}),
+        {"Background blur",
+         "Blur of the environment behind the scene, as the roughness of an equivalent mirror"}),
 
     row<&ViewSettings::background, &Background::color>(
         ColorRange{"background_color", 0, 1},
@@ -195,15 +195,13 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::background, &Background::gradient>(
         Range<double>{"background_gradient", 0, 1},
         "background.gradient",
-        {"Background gradient",
-         "Share by which the background is lighter at its top than halfway up, and darker at its "
-         "bottom"}),
+        {"Background gradient", "Fraction by which the background is lighter at the top, and "
+                                "darker at the bottom, than in the middle"}),
 
     row<&ViewSettings::exposure_mode>(
         Names{"exposure_mode", kExposureModeNames},
         "exposure_mode",
-        {"Exposure mode",
-         "Exposure by hand (fixed), or brought to middle grey for each frame (frame)", "",
+        {"Exposure mode", "Fixed exposure, or exposure of each frame to middle grey (frame)", "",
          "frame: two passes over the picture"}),
     row<&ViewSettings::exposure>(Range<double>{"exposure", 0.0001, 10'000},
                                  "exposure",
@@ -214,16 +212,15 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::toon, &Toon::bands>(
         Range<uint32_t>{"toon_bands", 0, 8},
         "toon.bands",
-        {"Toon bands",
-         "Steps of brightness that the toon renderers bring light to; 0 keeps it smooth"}),
+        {"Toon bands", "Number of brightness steps of the toon renderers; 0: smooth"}),
     row<&ViewSettings::toon, &Toon::rim>(
         Range<double>{"toon_rim", 0, 4},
         "toon.rim",
-        {"Toon rim", "Share of light that toon surfaces scatter besides where they turn away"}),
+        {"Toon rim", "Extra scattered light where toon surfaces turn away from the eye"}),
     row<&ViewSettings::toon, &Toon::rim_width>(
         Range<double>{"toon_rim_width", 0, 1},
         "toon.rim_width",
-        {"Toon rim width", "Cosine between surface and view below which a toon surface is a rim"}),
+        {"Toon rim width", "Cosine between surface and view direction below which the rim begins"}),
     row<&ViewSettings::toon_outline, &ToonOutline::strength>(
         Range<double>{"outline_strength", 0, 1},
         "toon_outline.strength",
@@ -238,7 +235,7 @@ inline constexpr std::array kSettingRows = {
         Names{"bloom", kBloomKindNames},
         "bloom.kind",
         {"Bloom", "Filter that spreads bright light into a glow", "",
-         "mip_chain: least; separable: more with the radius; single_pass: with its square"}),
+         "mip_chain: least; separable: grows with the radius; single_pass: with its square"}),
     row<&ViewSettings::bloom, &Bloom::threshold>(
         Range<double>{"bloom_threshold", 0, 1'000},
         "bloom.threshold",
@@ -246,32 +243,31 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::bloom, &Bloom::knee>(
         Range<double>{"bloom_knee", 0, 1},
         "bloom.knee",
-        {"Bloom knee", "Share of the bloom threshold over which the glow sets in"}),
-    row<&ViewSettings::bloom, &Bloom::strength>(Range<double>{"bloom_strength", 0, 1},
-                                                "bloom.strength",
-                                                {"Bloom strength",
-                                                 "Share of bright light that goes into the glow",
-                                                 "", "0 leaves all of it out"}),
+        {"Bloom knee", "Width of the soft knee, as a fraction of the bloom threshold"}),
+    row<&ViewSettings::bloom, &Bloom::strength>(
+        Range<double>{"bloom_strength", 0, 1},
+        "bloom.strength",
+        {"Bloom strength", "Fraction of bright light that spreads", "", "0 skips the effect"}),
     row<&ViewSettings::bloom, &Bloom::radius>(
         Range<double>{"bloom_radius", 0.001, 0.05},
         "bloom.radius",
         {"Bloom radius", "Standard deviation of the glow, as a share of the picture's smaller side",
-         "", "larger: more, but little by mip_chain"}),
-    row<&ViewSettings::antialiasing>(Names{"antialiasing", kAntialiasingNames},
-                                     "antialiasing",
-                                     {"Antialiasing",
-                                      "Smoothing of edges: a filter over the picture (fxaa), "
-                                      "four samples for each pixel (ssaa4), or 16 that only "
-                                      "stills have (mean16)",
-                                      "",
-                                      "fxaa: one pass; ssaa4: four times the work; mean16: "
-                                      "sixteen times"}),
+         "", "larger: more, but little with mip_chain"}),
+    row<&ViewSettings::antialiasing>(
+        Names{"antialiasing", kAntialiasingNames},
+        "antialiasing",
+        {"Antialiasing",
+         "Smoothing of edges: a filter over the picture (fxaa), four samples for each pixel "
+         "(ssaa4), or 16, only for stills (mean16)",
+         "",
+         "fxaa: one pass; ssaa4: four times the work; mean16: "
+         "sixteen times"}),
 
     row<&ViewSettings::fog, &Fog::density>(
         Range<double>{"fog_density", 0, 100},
         "fog.density",
         {"Fog density",
-         "Share of light that fog takes in a metre, as the extinction coefficient; 0: no fog",
+         "Fraction of light that fog removes in a metre, as the extinction coefficient; 0: no fog",
          "1/m", "above 0: three passes"}),
     row<&ViewSettings::fog, &Fog::height_falloff>(
         Range<double>{"fog_height_falloff", 0, 100},
@@ -286,22 +282,23 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::fog, &Fog::anisotropy>(
         Range<double>{"fog_anisotropy", -0.95, 0.95},
         "fog.anisotropy",
-        {"Fog anisotropy", "Direction in which fog scatters light: onwards above 0, back below 0"}),
+        {"Fog anisotropy",
+         "Direction in which fog scatters light: forwards above 0, backwards below 0"}),
     row<&ViewSettings::fog, &Fog::albedo>(
         ColorRange{"fog_albedo", 0, 1},
         "fog.albedo",
-        {"Fog colour", "Share of the light taken by fog that it scatters instead of absorbing", "",
-         "0,0,0 leaves its volume out"}),
+        {"Fog colour", "Fraction of the removed light that fog scatters instead of absorbing", "",
+         "0,0,0 skips the volume"}),
     row<&ViewSettings::fog, &Fog::tile_px>(
         Range<uint32_t>{"fog_tile", 4, 64},
         "fog.tile_px",
         {"Fog tile", "Distance in pixels between neighbouring nodes of the fog volume", "px",
-         "half of it: four times as much"}),
+         "half the size: four times the work"}),
     row<&ViewSettings::fog, &Fog::slice_count>(Range<uint32_t>{"fog_slices", 8, 256},
                                                "fog.slices",
                                                {"Fog slices",
                                                 "Number of depth slices of the fog volume", "",
-                                                "twice as many: twice as much"}),
+                                                "twice as many: twice the work"}),
     row<&ViewSettings::fog, &Fog::half_rate>(
         Switch{"fog_half_rate"},
         "fog.half_rate",
@@ -311,7 +308,7 @@ inline constexpr std::array kSettingRows = {
         Switch{"fog_noise"},
         "fog.noise",
         {"Fog jitter",
-         "Samples the fog volume at jittered places in place of the middle of each slice"}),
+         "Samples the fog volume at jittered positions instead of the middle of each slice"}),
 
     row<&ViewSettings::shadows, &Shadows::light_count>(
         Range<uint32_t>{"shadow_lights", 0, 32},
@@ -319,7 +316,9 @@ inline constexpr std::array kSettingRows = {
         {"Lights with shadows",
          "Number of lights that cast shadows, the most important ones; the others shine through "
          "walls",
-         "", "each light: the scene around it six times; 32 lights of 512 px: 201 MB a viewer"}),
+         "",
+         "each light: its surroundings are drawn six times; 32 lights of 512 px: 201 MB for each "
+         "viewer"}),
     row<&ViewSettings::shadows, &Shadows::size_px>(
         Range<uint32_t>{"shadow_size", 64, 512},
         "shadows.size_px",
@@ -339,7 +338,7 @@ inline constexpr std::array kEncodingRows = {
     row<&Encoding::codec>(Names{"codec", kChosenCodecNames},
                           "codec",
                           {"Codec", "Encoding of pictures in the stream", "",
-                           "vp9: a few times fewer bytes, more work"}),
+                           "vp9: a few times fewer bytes, more encoder work"}),
     row<&Encoding::video_kbps>(
         kVideoKbpsRange,
         "video_kbps",

@@ -193,10 +193,9 @@ Result<BoundsD3> parseBox(std::string_view text) {
             return BoundsD3{*least, *greatest};
         }
     }
-    return invalid(text,
-                   fmt::format("\"x,y,z;x,y,z\" in metres, the least corner first, each number "
-                               "from {} to {}, such as \"-10,0,-5;10,8,5\"",
-                               kPositionRange.min, kPositionRange.max));
+    return invalid(text, fmt::format("\"x,y,z;x,y,z\" in metres, the smallest corner first, each "
+                                     "number from {} to {}, such as \"-10,0,-5;10,8,5\"",
+                                     kPositionRange.min, kPositionRange.max));
 }
 
 Result<ToonRamp> parseRamp(std::string_view text) {

@@ -13,7 +13,7 @@ using session::Rejection;
 
 namespace {
 
-// A scene for which the device had no room is asked for once more after it: a seat of the desk's
+// A scene for which the device had no room is asked for once more after it: a worker of the desk's
 // own may have held another, which leaves with it.
 constexpr Seconds kSceneAgain{0.5};
 // A scene that is still on its way after so long no longer keeps the next one from being asked for.
@@ -59,9 +59,9 @@ StillRefusal refusalOf(const Error& error, const settings::Size& size) {
 } // namespace
 
 // All but `desk` is the desk's, under its lock.
-class StillDesk::Seat final : public session::FrameSink {
+class StillDesk::StillWorker final : public session::FrameSink {
   public:
-    explicit Seat(std::weak_ptr<StillDesk> its_desk) : desk(std::move(its_desk)) {}
+    explicit StillWorker(std::weak_ptr<StillDesk> its_desk) : desk(std::move(its_desk)) {}
 
     void deliver(session::ReadyFrame frame) override {
         if (const auto owner = desk.lock()) {
@@ -197,14 +197,14 @@ StillDesk::whyNot(const std::optional<session::Account>& account, bool is_new, T
     constexpr std::chrono::seconds kSoon{1};
     const Waiting now_waiting = waiting(account);
     if (now_waiting.all >= limits_.waiting) {
-        return later(
-            RejectCode::kCapacity,
-            numberText(now_waiting.all) + " stills are waited for, as many as there may be", kSoon);
+        return later(RejectCode::kCapacity,
+                     numberText(now_waiting.all) + " stills are waiting, which is the maximum",
+                     kSoon);
     }
     if (now_waiting.own >= limits_.per_account) {
         return later(RejectCode::kRateLimit,
                      numberText(now_waiting.own) +
-                         " stills are waited for from here, as many as there may be",
+                         " stills of this address or token are waiting, which is the maximum",
                      kSoon);
     }
     if (!account || !is_new || limits_.per_minute <= 0) {
@@ -216,7 +216,8 @@ StillDesk::whyNot(const std::optional<session::Account>& account, bool is_new, T
     }
     const auto wait = std::chrono::ceil<std::chrono::seconds>(allowance.nextAt(now) - now);
     return later(RejectCode::kRateLimit,
-                 "more than " + numberText(limits_.per_minute) + " stills a minute from here",
+                 "more than " + numberText(limits_.per_minute) +
+                     " stills a minute for this address or token",
                  std::max(wait, kSoon));
 }
 
@@ -228,11 +229,11 @@ std::optional<StillRefusal> StillDesk::whyNotHeld(const std::optional<session::A
     const uint64_t all = unsent_->all() + now_waiting.all_bytes;
     const uint64_t own = (account ? unsent_->of(*account) : 0) + now_waiting.own_bytes;
     const auto text = [](uint64_t on_their_way, const char* where) {
-        return "answers of " + numberText(on_their_way >> 20U) + " MiB are drawn or on their way" +
-               where + ", about as many as there may be";
+        return "answers of " + numberText(on_their_way >> 20U) + " MiB are being drawn or sent" +
+               where + ", close to the maximum";
     };
     if (own > 0 && own + bytes > limits_.account_bytes) {
-        return later(RejectCode::kRateLimit, text(own, " to here"), kSoon);
+        return later(RejectCode::kRateLimit, text(own, " to this address or token"), kSoon);
     }
     const uint64_t others = now_waiting.all_bytes + bytes;
     if (all > 0 && all + bytes > limits_.all_bytes &&
@@ -351,94 +352,94 @@ void StillDesk::drawNext(TimePoint now, Calls& calls) {
         if (here->stage != Stage::kQueued) {
             continue;
         }
-        const auto seat = freeSeatFor(*here);
-        if (!seat) {
+        const auto worker = freeWorkerFor(*here);
+        if (!worker) {
             return;
         }
-        draw(here, seat, now, calls);
+        draw(here, worker, now, calls);
     }
 }
 
 // The one whose view has the right targets already; else a new one; else what rests longest.
-std::shared_ptr<StillDesk::Seat> StillDesk::freeSeatFor(const Job& job) {
-    std::shared_ptr<Seat> best;
-    for (const auto& seat : seats_) {
-        if (seat->drawing) {
+std::shared_ptr<StillDesk::StillWorker> StillDesk::freeWorkerFor(const Job& job) {
+    std::shared_ptr<StillWorker> best;
+    for (const auto& worker : workers_) {
+        if (worker->drawing) {
             continue;
         }
-        if (seat->scene == job.state->scene && seat->size == job.state->settings.size) {
-            return seat;
+        if (worker->scene == job.state->scene && worker->size == job.state->settings.size) {
+            return worker;
         }
-        if (!best || seat->rests_since < best->rests_since) {
-            best = seat;
+        if (!best || worker->rests_since < best->rests_since) {
+            best = worker;
         }
     }
-    if (seats_.size() < limits_.seats) {
-        seats_.push_back(std::make_shared<Seat>(weak_from_this()));
-        return seats_.back();
+    if (workers_.size() < limits_.workers) {
+        workers_.push_back(std::make_shared<StillWorker>(weak_from_this()));
+        return workers_.back();
     }
     return best;
 }
 
 void StillDesk::draw(Jobs::iterator job,
-                     const std::shared_ptr<Seat>& its_seat,
+                     const std::shared_ptr<StillWorker>& its_worker,
                      TimePoint now,
                      Calls& calls) {
-    Seat& seat = *its_seat;
+    StillWorker& worker = *its_worker;
     job->stage = Stage::kDrawing;
-    job->state->applied.seq = ++seat.seq;
-    job->state->version = seat.seq; // of a view that begins at 0
-    seat.scene = job->state->scene;
-    seat.size = job->state->settings.size;
-    if (seat.port == nullptr) {
-        const auto id = job->source.port->joinBeside(its_seat, *job->state);
+    job->state->applied.seq = ++worker.seq;
+    job->state->version = worker.seq; // of a view that begins at 0
+    worker.scene = job->state->scene;
+    worker.size = job->state->settings.size;
+    if (worker.port == nullptr) {
+        const auto id = job->source.port->joinBeside(its_worker, *job->state);
         if (!id) {
             finish(job, later(RejectCode::kCapacity, id.error().message, std::chrono::seconds(5)),
                    calls);
-            std::erase(seats_, its_seat);
+            std::erase(workers_, its_worker);
             return;
         }
-        seat.port = job->source.port;
-        seat.id = *id;
+        worker.port = job->source.port;
+        worker.id = *id;
     } else {
-        seat.port->update(seat.id, *job->state, now);
+        worker.port->update(worker.id, *job->state, now);
     }
-    seat.drawing = job;
-    seat.port->grant(seat.id, seat.delivered + 1);
+    worker.drawing = job;
+    worker.port->grant(worker.id, worker.delivered + 1);
 }
 
-void StillDesk::onDrawn(Seat& seat, session::ReadyFrame frame) {
+void StillDesk::onDrawn(StillWorker& worker, session::ReadyFrame frame) {
     locked([&](Calls& calls) {
-        ++seat.delivered;
-        if (!seat.drawing) {
+        ++worker.delivered;
+        if (!worker.drawing) {
             return;
         }
-        if (frame.record.applied.seq != seat.seq) {
-            seat.port->grant(seat.id, seat.delivered + 1);
+        if (frame.record.applied.seq != worker.seq) {
+            worker.port->grant(worker.id, worker.delivered + 1);
             return;
         }
-        const auto job = *std::exchange(seat.drawing, std::nullopt);
+        const auto job = *std::exchange(worker.drawing, std::nullopt);
         ++counts_.drawn_total;
         storeFor(job->request).keep(job->request.tag, frame.bytes);
         finish(job, frame.bytes, calls);
-        goOn(seat, Clock::now(), calls);
+        goOn(worker, Clock::now(), calls);
     });
 }
 
-void StillDesk::onRefused(Seat& seat, const Error& error) {
+void StillDesk::onRefused(StillWorker& worker, const Error& error) {
     locked([&](Calls& calls) {
-        if (!seat.drawing) {
+        if (!worker.drawing) {
             return;
         }
-        const auto job = *std::exchange(seat.drawing, std::nullopt);
+        const auto job = *std::exchange(worker.drawing, std::nullopt);
         finish(job, refusalOf(error, job->state->settings.size), calls);
-        goOn(seat, Clock::now(), calls);
+        goOn(worker, Clock::now(), calls);
     });
 }
 
-void StillDesk::goOn(Seat& seat, TimePoint now, Calls& calls) {
+void StillDesk::goOn(StillWorker& worker, TimePoint now, Calls& calls) {
     drawNext(now, calls);
-    rest(seat, now);
+    rest(worker, now);
 }
 
 void StillDesk::onLost(const Error& error) {
@@ -447,7 +448,7 @@ void StillDesk::onLost(const Error& error) {
             finish(jobs_.begin(),
                    later(RejectCode::kDevice, error.message, std::chrono::seconds(30)), calls);
         }
-        seats_.clear();
+        workers_.clear();
     });
 }
 
@@ -466,23 +467,23 @@ void StillDesk::finish(Jobs::iterator job, const StillOutcome& outcome, Calls& c
     jobs_.erase(job);
 }
 
-void StillDesk::rest(Seat& seat, TimePoint now) {
-    if (seat.drawing) {
+void StillDesk::rest(StillWorker& worker, TimePoint now) {
+    if (worker.drawing) {
         return;
     }
-    seat.rests_since = now;
-    if (seat.scene && seat.scene->scene_number != 0) {
-        leave(seat);
+    worker.rests_since = now;
+    if (worker.scene && worker.scene->scene_number != 0) {
+        leave(worker);
     } else {
         alarm_(now + std::chrono::duration_cast<Clock::duration>(limits_.linger));
     }
 }
 
-void StillDesk::leave(Seat& seat) {
-    if (seat.port != nullptr) {
-        seat.port->leave(seat.id);
+void StillDesk::leave(StillWorker& worker) {
+    if (worker.port != nullptr) {
+        worker.port->leave(worker.id);
     }
-    std::erase_if(seats_, [&](const auto& other) { return other.get() == &seat; });
+    std::erase_if(workers_, [&](const auto& other) { return other.get() == &worker; });
 }
 
 void StillDesk::cancel(Ticket ticket) {
@@ -515,18 +516,18 @@ void StillDesk::dismissScene(const Job& gone) {
 
 void StillDesk::expire(TimePoint now) {
     locked([&](Calls& calls) {
-        std::vector<std::shared_ptr<Seat>> given_up;
+        std::vector<std::shared_ptr<StillWorker>> given_up;
         for (auto job = jobs_.begin(); job != jobs_.end();) {
             const auto here = job++;
             if (now < here->due) {
                 continue;
             }
             const bool scene = here->stage == Stage::kScene;
-            for (const auto& seat : seats_) {
-                if (seat->drawing == here) {
-                    seat->drawing.reset(); // its picture comes to nobody
-                    ++seat->seq;
-                    given_up.push_back(seat);
+            for (const auto& worker : workers_) {
+                if (worker->drawing == here) {
+                    worker->drawing.reset(); // its picture comes to nobody
+                    ++worker->seq;
+                    given_up.push_back(worker);
                 }
             }
             Job gone;
@@ -535,18 +536,19 @@ void StillDesk::expire(TimePoint now) {
             gone.scene_asked = here->scene_asked;
             finish(here,
                    later(RejectCode::kCapacity,
-                         scene ? "the scene did not come in time" : "the device has no time for it",
+                         scene ? "the scene was not ready in time"
+                               : "the device has no time for this still",
                          std::chrono::seconds(10)),
                    calls);
             dismissScene(gone);
         }
-        for (const auto& seat : given_up) {
-            goOn(*seat, now, calls);
+        for (const auto& worker : given_up) {
+            goOn(*worker, now, calls);
         }
-        for (size_t i = seats_.size(); i-- > 0;) {
-            Seat& seat = *seats_[i];
-            if (!seat.drawing && now - seat.rests_since >= limits_.linger) {
-                leave(seat);
+        for (size_t i = workers_.size(); i-- > 0;) {
+            StillWorker& worker = *workers_[i];
+            if (!worker.drawing && now - worker.rests_since >= limits_.linger) {
+                leave(worker);
             }
         }
         wantScenes(now, calls);
@@ -575,9 +577,9 @@ void StillDesk::setNextAlarm(TimePoint now) const {
             isNext(after(*job.scene_asked, kSlowScene));
         }
     }
-    for (const auto& seat : seats_) {
-        if (!seat->drawing) {
-            isNext(after(seat->rests_since, limits_.linger));
+    for (const auto& worker : workers_) {
+        if (!worker->drawing) {
+            isNext(after(worker->rests_since, limits_.linger));
         }
     }
     if (next) {

@@ -2,7 +2,8 @@
 //
 // 1. A still that was drawn is given again. One that is being drawn is waited for by all who ask.
 // 2. A scene that is not on the device is loaded, one after another.
-// 3. A seat is a viewer of the stream without a connection (StreamPort::joinBeside) that takes one
+// 3. A worker is a viewer of the stream without a connection (StreamPort::joinBeside) that takes
+// one
 //    picture after another. It goes when it rests, so that its view's memory is others', and at
 //    once where its scene is not the server's first, so that the scene may leave.
 //
@@ -56,7 +57,7 @@ struct StillRefusal {
 using StillOutcome = std::variant<SharedBytes, StillRefusal>;
 
 struct StillLimits {
-    size_t seats = 4;
+    size_t workers = 4;
     size_t per_account = 8; // waited for
     size_t waiting = 64;    // by all
     // Of answers that are drawn or on their way; one alone may be larger. Of all_bytes an account
@@ -69,7 +70,7 @@ struct StillLimits {
     uint64_t kept_bytes = 32 << 20U;
     uint64_t kept_thumbnail_bytes = 16 << 20U;
     Seconds patience{60}; // from the request to the picture
-    Seconds linger{10};   // of a seat that rests
+    Seconds linger{10};   // of a worker that rests
 };
 
 struct StillCounts {
@@ -99,7 +100,7 @@ class StillDesk final : public session::SceneWaiter,
                TimePoint now);
     // Nobody waits for it any more. It may be answered meanwhile.
     void cancel(Ticket ticket);
-    // Ends what was waited for too long, and seats that rest; sets off the alarm for when more is
+    // Ends what was waited for too long, and workers that rest; sets off the alarm for when more is
     // due.
     void expire(TimePoint now);
     [[nodiscard]] StillCounts counts() const;
@@ -133,8 +134,8 @@ class StillDesk final : public session::SceneWaiter,
     };
     using Jobs = std::list<Job>; // oldest first
 
-    class Seat;
-    friend class Seat;
+    class StillWorker;
+    friend class StillWorker;
     // What is done when the lock is let go.
     using Calls = std::vector<std::function<void()>>;
     // Holds the lock, and makes the calls after it.
@@ -169,16 +170,19 @@ class StillDesk final : public session::SceneWaiter,
                      TimePoint now,
                      Calls& calls);
     void drawNext(TimePoint now, Calls& calls);
-    [[nodiscard]] std::shared_ptr<Seat> freeSeatFor(const Job& job);
-    void draw(Jobs::iterator job, const std::shared_ptr<Seat>& seat, TimePoint now, Calls& calls);
+    [[nodiscard]] std::shared_ptr<StillWorker> freeWorkerFor(const Job& job);
+    void draw(Jobs::iterator job,
+              const std::shared_ptr<StillWorker>& worker,
+              TimePoint now,
+              Calls& calls);
     // It draws no more of what it was given: it takes the next one, or rests.
-    void goOn(Seat& seat, TimePoint now, Calls& calls);
+    void goOn(StillWorker& worker, TimePoint now, Calls& calls);
     void finish(Jobs::iterator job, const StillOutcome& outcome, Calls& calls);
     void setNextAlarm(TimePoint now) const;
-    void rest(Seat& seat, TimePoint now);
-    void leave(Seat& seat);
-    void onDrawn(Seat& seat, session::ReadyFrame frame);
-    void onRefused(Seat& seat, const Error& error);
+    void rest(StillWorker& worker, TimePoint now);
+    void leave(StillWorker& worker);
+    void onDrawn(StillWorker& worker, session::ReadyFrame frame);
+    void onRefused(StillWorker& worker, const Error& error);
     void onLost(const Error& error);
     [[nodiscard]] StillStore& storeFor(const StillRequest& request);
 
@@ -187,7 +191,7 @@ class StillDesk final : public session::SceneWaiter,
     mutable std::mutex mutex_; // before those of the ports
     Ticket last_ticket_ = 0;
     Jobs jobs_;
-    std::vector<std::shared_ptr<Seat>> seats_;
+    std::vector<std::shared_ptr<StillWorker>> workers_;
     Allowances<session::Account> allowances_;
     StillStore kept_;
     StillStore thumbnails_;

@@ -157,7 +157,7 @@ std::optional<Rejection> read(Asked& asked, const Entries& entries) {
         const auto* setting = session::findSetting(name);
         if (!isViewName(name)) {
             return Rejection{RejectCode::kUnsupported, 0, printable(name),
-                             printable(name) + " is no name of the page's address"};
+                             printable(name) + " is not a name of the page's address"};
         }
         if (const auto done =
                 setting != nullptr ? readSetting(asked, *setting, text) : row->read(asked, text);

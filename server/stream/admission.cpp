@@ -37,11 +37,11 @@ void Admission::remove(uint64_t session) {
     sessions_.erase(session);
 }
 
-void Admission::onFrame(uint64_t session, Seconds cost, TimePoint now, bool kept) {
+void Admission::onFrame(uint64_t session, Seconds cost, TimePoint now, bool reused) {
     const auto found = sessions_.find(session);
     if (found != sessions_.end()) {
         Entry& entry = found->second;
-        (kept ? entry.kept : entry.moving).add(cost);
+        (reused ? entry.reused : entry.moving).add(cost);
         entry.seen = now;
     }
 }
@@ -49,7 +49,7 @@ void Admission::onFrame(uint64_t session, Seconds cost, TimePoint now, bool kept
 Seconds Admission::costOf(const Entry& entry) const {
     const bool known = entry.moving.steady() || newcomer_cost_ == Seconds(0);
     const auto moving = known ? entry.moving.value() : std::nullopt;
-    return std::max(moving.value_or(newcomer_cost_), entry.kept.value().value_or(Seconds(0)));
+    return std::max(moving.value_or(newcomer_cost_), entry.reused.value().value_or(Seconds(0)));
 }
 
 Admission::Needs Admission::needs(TimePoint now) const {

@@ -36,9 +36,9 @@ class Admission {
     void remove(uint64_t session);
     // Whether any of its viewers takes frames: paused, it costs nothing.
     void setTakesFrames(uint64_t session, bool takes, TimePoint now);
-    // Device time that one frame of this session took. `kept`: it rests on the surfaces of the one
-    // before it.
-    void onFrame(uint64_t session, Seconds cost, TimePoint now, bool kept = false);
+    // Device time that one frame of this session took. `reused`: it rests on the surfaces of the
+    // one before it.
+    void onFrame(uint64_t session, Seconds cost, TimePoint now, bool reused = false);
 
     // kCapacity, with the figures in one line for the log, where one more session of this account
     // is too much.
@@ -53,7 +53,7 @@ class Admission {
         bool takes_frames = true;
         TimePoint seen{}; // drawing, or joining
         session::SteadyCost moving;
-        session::SteadyCost kept;
+        session::SteadyCost reused;
     };
     // Of the device's time, 1 being all of it; at the floor rate.
     struct Needs {

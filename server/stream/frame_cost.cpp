@@ -33,7 +33,7 @@ settings::Camera orbited(settings::Camera camera, double angle_rad) {
 }
 
 Error brokenOff() {
-    return {ErrorCode::kCapacity, "what a frame costs was not measured to the end"};
+    return {ErrorCode::kCapacity, "the cost of a frame was not measured completely"};
 }
 
 // Frames of as many views in turn as keep the device busy, as those of several viewers come.

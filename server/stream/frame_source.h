@@ -5,6 +5,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/frame_stats.h"
+#include "core/frame_work.h"
 #include "core/pixel_view.h"
 #include "motion/playback.h"
 #include "settings/settings.h"
@@ -23,17 +24,6 @@ namespace froxel::stream {
 struct FrameTime {
     double lights_s = 0;                                   // the lights' clock
     std::optional<motion::Playing> playing = std::nullopt; // of a scene that moves
-};
-
-// What a frame will ask of the device, known when it begins.
-struct FrameWork {
-    Seconds estimate{0};    // device time of all its pieces; 0: unknown
-    double limit_share = 0; // of the longest that a frame may take
-    // 0: not yet; ask again.
-    uint32_t piece_count = 1;
-    // Why not yet: the host's part of the frame is done in stages, since it is long, and goes on
-    // with the next begin() for the same. Else variants of shaders that it needs are being made.
-    bool half_built = false;
 };
 
 struct SourceFrame {
@@ -125,7 +115,7 @@ class FrameSource : public SceneSource {
     // Does what needs no device's time. Any thread. Errors: kCapacity, kScene, kUnsupported.
     [[nodiscard]] virtual Result<std::unique_ptr<SceneMove>>
     moveScene(std::shared_ptr<const scene::Scene> /*scene*/) {
-        return Error{ErrorCode::kUnsupported, "this device takes no other scene"};
+        return Error{ErrorCode::kUnsupported, "this device accepts no other scene"};
     }
     // From now on begin() does not wait for variants of shaders that are missing.
     virtual void makeVariantsInBackground() {}

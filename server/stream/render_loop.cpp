@@ -563,7 +563,7 @@ void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame draw
     viewer.gave_up = false;
     {
         const std::lock_guard lock(admission_mutex_);
-        admission_.onFrame(frame.id, need, now, drawn.stats.kept);
+        admission_.onFrame(frame.id, need, now, drawn.stats.surfaces_reused);
         admission_.setNewcomersCost(newcomersCost());
     }
     viewer.drawn = frame.state;

@@ -67,7 +67,8 @@ class RenderLoop final : public session::StreamPort {
     RenderLoop& operator=(const RenderLoop&) = delete;
 
     // Frames a second that active sessions must keep when another one joins, and the device time of
-    // a newcomer's frame: see Admission. 0, as it is first: no matter. Any thread.
+    // a newcomer's frame: see Admission. 0, the initial value, means that it is unknown. Any
+    // thread.
     void setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost = {});
 
     // What that frame is, so that its time is measured again each time that everybody has left.

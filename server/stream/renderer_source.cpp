@@ -48,16 +48,12 @@ class RendererView final : public ViewSource {
         if (submitted_.empty()) {
             held_ = {};
         }
-        const auto work = view_.begin({.settings = settings,
-                                       .time_s = time.lights_s,
-                                       .playing = time.playing,
-                                       .keep_surfaces = true,
-                                       .keep_radiance = terms.encoding.radiance,
-                                       .beside_bytes = terms.encoding.bytes});
-        if (!work) {
-            return work.error();
-        }
-        return FrameWork{work->estimate, work->limit_share, work->piece_count, work->half_built};
+        return view_.begin({.settings = settings,
+                            .time_s = time.lights_s,
+                            .playing = time.playing,
+                            .keep_surfaces = true,
+                            .keep_radiance = terms.encoding.radiance,
+                            .beside_bytes = terms.encoding.bytes});
     }
     [[nodiscard]] Result<void> submitPiece() override {
         submitted_.push_back(Clock::now());

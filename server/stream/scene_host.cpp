@@ -66,7 +66,7 @@ Result<SharedContext> SceneHost::want(const std::string& id,
     }
     if (!version) {
         return Error{ErrorCode::kInvalidArgument,
-                     "is \"" + printable(id) + "\", which is no scene of this server"};
+                     "is \"" + printable(id) + "\", which is not a scene of this server"};
     }
     for (auto& [number, resident] : residents_) {
         if (resident.id == id && resident.version == *version) {
@@ -75,7 +75,7 @@ Result<SharedContext> SceneHost::want(const std::string& id,
         }
     }
     if (device_ == nullptr) {
-        return Error{ErrorCode::kCapacity, "no scene is loaded any more: the server ends"};
+        return Error{ErrorCode::kCapacity, "the server is shutting down and loads no more scenes"};
     }
     auto [coming, is_new] = coming_.try_emplace(id);
     if (is_new) {
@@ -262,9 +262,9 @@ void SceneHost::load(const std::string& id) {
         }
         if (!in_time) {
             finish(id, Error{ErrorCode::kScene,
-                             fmt::format("it is not read after {:.0f} s, and given up; right is a "
-                                         "smaller scene",
-                                         options_.most_reading.count())});
+                             fmt::format(
+                                 "reading did not finish within {:.0f} s; expected a smaller scene",
+                                 options_.most_reading.count())});
             return;
         }
         auto prepared = read ? prepare(id, std::move(*read)) : Result<void>(read.error());
@@ -364,10 +364,11 @@ Result<void> SceneHost::makeRoom(uint64_t bytes, const std::string& name) {
     uint64_t taken = bytesTaken();
     const uint64_t held = taken - free_bytes;
     if (bytes > scene_bytes_ || held > scene_bytes_ - bytes) {
-        return Error{ErrorCode::kCapacity,
-                     fmt::format("{} takes {} MiB of the device's memory; {} MiB of the {} that "
-                                 "scenes have here are in use",
-                                 printable(name), mib(bytes), held >> 20U, scene_bytes_ >> 20U)};
+        return Error{
+            ErrorCode::kCapacity,
+            fmt::format(
+                "{} takes {} MiB of the device's memory; {} MiB of the {} for scenes are in use",
+                printable(name), mib(bytes), held >> 20U, scene_bytes_ >> 20U)};
     }
     while (taken > scene_bytes_ - bytes) {
         auto oldest = residents_.end();

@@ -14,7 +14,7 @@ FROXEL_CONST uint kAnyMaterial = 0xffffffffU;
 // Of a dispatch that resolves ids: the last one of the frame also fills empty pixels; depths are
 // those of planes already, kept from a frame before.
 FROXEL_CONST uint kResolveLast = 1U;
-FROXEL_CONST uint kResolveKept = 2U;
+FROXEL_CONST uint kResolveReused = 2U;
 FROXEL_CONST uint kResolveLayers = 4U; // only surfaces that have layers
 
 // A primitive of an instance.

@@ -39,21 +39,21 @@ vec4 cutEdge(vec4 inside, vec4 outside, uint plane) {
 uint clipCorners(inout vec4 corners[kMostCorners], uint count) {
     for (uint plane = 0; plane < kClipPlanes; ++plane) {
         vec4 kept[kMostCorners];
-        uint kept_count = 0;
+        uint reused_count = 0;
         for (uint i = 0; i < count; ++i) {
             vec4 a = corners[i];
             vec4 b = corners[i + 1u < count ? i + 1u : 0u];
             bool a_inside = insidePlane(a, plane) >= 0.0;
             bool b_inside = insidePlane(b, plane) >= 0.0;
             if (a_inside) {
-                kept[kept_count++] = a;
+                kept[reused_count++] = a;
             }
             if (a_inside != b_inside) {
-                kept[kept_count++] = a_inside ? cutEdge(a, b, plane) : cutEdge(b, a, plane);
+                kept[reused_count++] = a_inside ? cutEdge(a, b, plane) : cutEdge(b, a, plane);
             }
         }
         corners = kept;
-        count = kept_count;
+        count = reused_count;
     }
     return count;
 }

@@ -44,7 +44,7 @@ float planeDistance(VisibleTriangle t, uvec2 pixel, float interpolated) {
 
 // Of the surface that a covered pixel shows; the passes that follow find the same.
 float solidDistance(VisibleTriangle t, uvec2 pixel, float depth) {
-    if (!hasOutput(kOutputDepth) || (resolve_flags & kResolveKept) != 0u) {
+    if (!hasOutput(kOutputDepth) || (resolve_flags & kResolveReused) != 0u) {
         return distanceFromDepth(depth);
     }
     float distance = planeDistance(t, pixel, distanceFromDepth(depth));

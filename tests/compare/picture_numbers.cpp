@@ -89,7 +89,7 @@ int run(const std::string_view what, const std::string& first, const std::string
     const Picture a = read(first);
     const Picture b = read(second);
     if (a.size.width_px != b.size.width_px || a.size.height_px != b.size.height_px) {
-        std::fprintf(stderr, "%s has %ux%u pixels, %s %ux%u; right is one size\n", first.c_str(),
+        std::fprintf(stderr, "%s has %ux%u pixels, %s %ux%u; expected one size\n", first.c_str(),
                      a.size.width_px, a.size.height_px, second.c_str(), b.size.width_px,
                      b.size.height_px);
         return 1;

@@ -10,18 +10,35 @@ out=$root/build/prose
 bin=$here/node_modules/.bin
 [[ -x $bin/textlint ]] || { echo "check_prose.sh: run npm --prefix tests/docs ci first" >&2; exit 2; }
 
+check_sentences() { # FILE...
+    "$bin/textlint" --rulesdir "$here/rules" --config "$here/.textlintrc.json" --format unix "$@"
+}
+check_spelling() { # FILE...
+    "$bin/cspell" --config "$here/cspell.json" --no-progress --no-summary --root "$out" "$@"
+}
+
 cd "$root"
 mapfile -t documents < <(git ls-files '*.md')
 mapfile -t sources < <(git ls-files 'server/*.cpp' 'server/*.h' 'client-web/src/*.ts' 'client-web/report/*.ts' \
     'client-web/*.html' 'client-web/report/*.html')
 rm -rf "$out"
 mkdir -p "$out"
+
+# The checks themselves, by what they must find.
+printf 'What rests is not drawn.\n\n| a | b |\n|---|---|\n| %s | c |\n' "$(printf 'word %.0s' {1..31})" >"$out/bad.md"
+printf 'This is mispelled.\n' >"$out/bad.txt"
+found=$(check_sentences "$out/bad.md" || true)
+if [[ $found != *'banned opening'* || $found != *'31 words'* ]] || check_spelling "$out/bad.txt" >/dev/null; then
+    echo "check_prose.sh: the checks do not find known faults" >&2
+    exit 2
+fi
+rm "$out"/bad.*
+
 python3 "$here/messages.py" "$root" "$out" "${sources[@]}"
 cp --parents "${documents[@]}" "$out"
-
 cd "$out"
 mapfile -t texts < <(find . -type f | sed 's|^\./||' | sort)
 code=0
-"$bin/textlint" --rulesdir "$here/rules" --config "$here/.textlintrc.json" --format unix "${texts[@]}" | sed "s|^$out/||" || code=1
-"$bin/cspell" --config "$here/cspell.json" --no-progress --no-summary --root "$out" "${texts[@]}" || code=1
+check_sentences "${texts[@]}" | sed "s|^$out/||" || code=1
+check_spelling "${texts[@]}" || code=1
 exit "$code"

@@ -25,12 +25,12 @@ def blank(match):
     return re.sub(r"[^\n]", " ", match[0])
 
 
-def joined(literal, cpp):
-    """The text of a literal, or of adjacent ones, on one line."""
+def lines_of(literal, cpp):
+    """The lines that a literal, or adjacent ones, print."""
     if cpp:
         literal = re.sub(r'"\s*"', "", literal)
-    text = literal.strip("\"'`").replace("\\\"", '"').replace("\\'", "'")
-    return re.sub(r"\s+", " ", HOLE.sub("N", text.replace("\\n", " ").replace("\\t", " "))).strip()
+    text = literal.strip("\"'`").replace("\\\"", '"').replace("\\'", "'").replace("\\t", " ")
+    return [re.sub(r"\s+", " ", HOLE.sub("N", line)).strip() for line in text.split("\\n")]
 
 
 def messages(name, text):
@@ -40,9 +40,10 @@ def messages(name, text):
     cpp = name.endswith((".cpp", ".h"))
     pattern = HTML if html else CPP if cpp else PAGE
     for match in pattern.finditer(text):
-        message = joined(match[0], cpp)
-        if len(WORD.findall(message)) >= LEAST_WORDS and not FOREIGN.search(message):
-            yield text.count("\n", 0, match.start()), message
+        begin = text.count("\n", 0, match.start())
+        for number, message in enumerate(lines_of(match[0], cpp)):
+            if len(WORD.findall(message)) >= LEAST_WORDS and not FOREIGN.search(message):
+                yield begin + number, message
 
 
 def main():
@@ -51,7 +52,9 @@ def main():
         text = (root / name).read_text(encoding="utf-8")
         lines = [""] * (text.count("\n") + 1)
         for line, message in messages(name, text):
-            lines[line] = f"{lines[line]} {message}".strip()
+            while line < len(lines) - 1 and lines[line]:
+                line += 1
+            lines[line] = message
         if any(lines):
             path = out / f"{name}.txt"
             path.parent.mkdir(parents=True, exist_ok=True)

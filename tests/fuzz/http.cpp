@@ -112,7 +112,7 @@ void ask(const net::Request& request, const Sites& sites) {
         answer(request, *sites.admin);
         return;
     }
-    FROXEL_ASSERT(sites.admin->refuseUpgrade(request, {}), "no WebSocket at the admin address");
+    FROXEL_ASSERT(sites.admin->refuseUpgrade(request, {}), "the admin address has no WebSocket");
     if (const auto refused = sites.open->refuseUpgrade(request, {})) {
         expectSound(*refused);
     } else {

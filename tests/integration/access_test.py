@@ -160,7 +160,7 @@ class Access(unittest.IsolatedAsyncioTestCase):
             while True:
                 await asyncio.wait_for(revoked.recv(), 10)
         self.assertEqual((revoked.close_code, revoked.close_reason),
-                         (4003, "the token was taken away"))
+                         (4003, "the token was removed"))
         await asyncio.wait_for(await kept.ping(), 10)
         self.assertTrue(kept.open)
         await kept.close()
@@ -224,7 +224,7 @@ class Beginning(unittest.TestCase):
                            check=True, capture_output=True)
             ended = self.serve("--tls-cert", certificate, "--tls-key", encrypted)
         self.assertEqual(ended.returncode, 1, ended.stderr)
-        self.assertIn("encrypted.pem: is encrypted; right is a key without a passphrase", ended.stderr)
+        self.assertIn("encrypted.pem: is encrypted; expected a key without a passphrase", ended.stderr)
 
 
 if __name__ == "__main__":

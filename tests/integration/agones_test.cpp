@@ -180,7 +180,7 @@ TEST(Agones, Port_IsNone_EndsTheStartWithOneLine) {
     ASSERT_EQ(unsetenv("AGONES_SDK_HTTP_PORT"), 0);
     const auto end = server.wait(20s);
     EXPECT_EQ(end.exit_code, 2);
-    EXPECT_NE(end.errors.find("AGONES_SDK_HTTP_PORT: 'tcp' is no port"), std::string::npos)
+    EXPECT_NE(end.errors.find("AGONES_SDK_HTTP_PORT: 'tcp' is not a port"), std::string::npos)
         << end.errors;
 }
 

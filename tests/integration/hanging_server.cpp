@@ -20,10 +20,10 @@ class HangingView final : public stream::ViewSource {
     ~HangingView() override { std::abort(); }
 
     [[nodiscard]] bool canBegin() const override { return true; }
-    [[nodiscard]] Result<stream::FrameWork> begin(const settings::ViewSettings& /*settings*/,
-                                                  const stream::FrameTime& /*time*/,
-                                                  const stream::FrameTerms& /*terms*/) override {
-        return stream::FrameWork{Seconds(0), 2};
+    [[nodiscard]] Result<FrameWork> begin(const settings::ViewSettings& /*settings*/,
+                                          const stream::FrameTime& /*time*/,
+                                          const stream::FrameTerms& /*terms*/) override {
+        return FrameWork{Seconds(0), 2};
     }
     [[nodiscard]] Result<void> submitPiece() override { return {}; }
     void abandon() override { std::abort(); }

@@ -103,7 +103,7 @@ TEST_F(HttpTest, Still_ThatCannotBe_IsToldWhatWouldBeRight) {
         {"format=png&format=jpg", 400, "format is given twice"},
         {"scene=&scene=a", 400, "scene is given twice"},
         {"format=gif", 400, "it must be jpg, png, exr"},
-        {"%6e%00=1", 400, R"(n\\x00 is no name)"},
+        {"%6e%00=1", 400, R"(n\\x00 is not a name)"},
         {"scene=other", 404, "this server has one scene"},
         {"size=4096x4096&antialiasing=ssaa4", 400, R"("fits":"2048x2048)"},
     };

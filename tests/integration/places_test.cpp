@@ -82,7 +82,7 @@ TEST(Places, Full_IsToldBeforeTheUpgrade_ButNotToWhoComesBackOrJoinsARoom) {
     const std::string answer = httpExchange(server.port(), upgradeRequest());
     EXPECT_EQ(statusOf(answer), 503);
     EXPECT_NE(answer.find("Retry-After: 5\r\n"), std::string::npos) << answer;
-    EXPECT_EQ(bodyOf(answer), "all 2 sessions of this server are taken; try again later\n");
+    EXPECT_EQ(bodyOf(answer), "all 2 sessions of this server are in use; try again later\n");
     EXPECT_EQ(bodyOf(httpGet(server.port(), "/ws")), bodyOf(answer)) << "a page asks like this";
 
     first.abort();

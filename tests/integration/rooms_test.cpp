@@ -385,7 +385,7 @@ TEST(AdmissionByCost, DeviceIsBusy_RefusesClearly_ExistingOnesKeepTheirRate) {
     const std::string told = httpGet(server.port(), "/ws");
     EXPECT_EQ(statusOf(told), 503);
     EXPECT_NE(told.find("Froxel-Close-Code: 4030"), std::string::npos) << told;
-    EXPECT_NE(told.find("the server draws for as many viewers as it can"), std::string::npos);
+    EXPECT_NE(told.find("the server cannot draw for more viewers now"), std::string::npos);
     WsClient watcher(server.port(), {.target = "/ws?room=hall"});
     watcher.join("hall");
     watcher.expectFrame();

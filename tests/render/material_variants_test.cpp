@@ -157,11 +157,11 @@ TEST_F(MaterialVariants, OfASceneThatMoves_MoveWithIt) {
     }
 }
 
-TEST_F(MaterialVariants, Dressing_GoesWithTheLastWhoHoldsIt) {
+TEST_F(MaterialVariants, MaterialSet_GoesWithTheLastWhoHoldsIt) {
     const scene::Scene room = dressedRoom();
     render::Renderer renderer(device(), room);
     auto& resources = renderer.resources();
-    std::weak_ptr<render::Dressing> seen;
+    std::weak_ptr<render::MaterialSet> seen;
     {
         render::ViewRenderer first(renderer);
         render::ViewRenderer second(renderer);
@@ -169,13 +169,13 @@ TEST_F(MaterialVariants, Dressing_GoesWithTheLastWhoHoldsIt) {
         inputs.settings.material_variant = 1;
         std::ignore = draw(first, inputs);
         std::ignore = draw(second, inputs);
-        seen = resources.dressing(1);
+        seen = resources.material_set(1);
         EXPECT_EQ(seen.use_count(), 4) << "two views, each with a frame drawn in it";
         EXPECT_TRUE(seen.lock()->needs.blended);
-        EXPECT_FALSE(resources.dressing(2)->needs.layers);
+        EXPECT_FALSE(resources.material_set(2)->needs.layers);
     }
     EXPECT_TRUE(seen.expired());
-    EXPECT_EQ(resources.dressing(0), resources.dressing(0));
+    EXPECT_EQ(resources.material_set(0), resources.material_set(0));
 }
 
 } // namespace froxel::test

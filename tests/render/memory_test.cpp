@@ -173,7 +173,7 @@ TEST_F(MemoryNeed, PictureBeyondTheDevice_IsRefusedUntilAnotherViewGoes) {
         const auto refused = second.submit(inputs);
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
-        EXPECT_THAT(refused.error().message, testing::HasSubstr("scenes and other sessions take"));
+        EXPECT_THAT(refused.error().message, testing::HasSubstr("scenes and other sessions use"));
     }
     fill(second, inputs);
 }

@@ -230,10 +230,10 @@ TEST_F(Moving, SurfacesKept_OfAPoseThatStands_AreAFreshViews) {
             const Picture kept = draw(view, inputs);
             EXPECT_EQ(kept.rgba8, expected.rgba8);
             EXPECT_EQ(differingFloats(kept, expected), 0U);
-            EXPECT_TRUE(stands_s == stood_s || !kept.stats.kept);
+            EXPECT_TRUE(stands_s == stood_s || !kept.stats.surfaces_reused);
             EXPECT_EQ(hasPass(kept, "pose"), stands_s != stood_s);
             stood_s = stands_s;
-            last_kept = kept.stats.kept;
+            last_kept = kept.stats.surfaces_reused;
         }
         EXPECT_TRUE(last_kept);
     }

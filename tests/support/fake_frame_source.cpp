@@ -90,9 +90,9 @@ class FakeView final : public stream::ViewSource {
         return waiting_ == 0 && static_cast<int>(frames_.size()) + *own_leases_ < kReadbackSlots;
     }
 
-    [[nodiscard]] Result<stream::FrameWork> begin(const settings::ViewSettings& settings,
-                                                  const stream::FrameTime& /*time*/,
-                                                  const stream::FrameTerms& terms) override {
+    [[nodiscard]] Result<FrameWork> begin(const settings::ViewSettings& settings,
+                                          const stream::FrameTime& /*time*/,
+                                          const stream::FrameTerms& terms) override {
         const stream::EncodingNeeds& encoding = terms.encoding;
         device_->beside_bytes = encoding.bytes;
         if (device_->lost) {
@@ -115,7 +115,7 @@ class FakeView final : public stream::ViewSource {
         }
         if (device_->unready_count > 0) {
             --device_->unready_count;
-            return stream::FrameWork{.piece_count = 0};
+            return FrameWork{.piece_count = 0};
         }
         built_count_ = settings == built_ ? built_count_ + 1 : 1;
         built_ = settings;
@@ -124,7 +124,7 @@ class FakeView final : public stream::ViewSource {
             if (device_->on_stage) {
                 device_->on_stage();
             }
-            return stream::FrameWork{.piece_count = 0, .half_built = true};
+            return FrameWork{.piece_count = 0, .half_built = true};
         }
         built_count_ = 0;
         ++device_->begun_count;
@@ -132,8 +132,8 @@ class FakeView final : public stream::ViewSource {
         waiting_ = device_->piece_count;
         frames_.push_back({settings, encoding.radiance, waiting_});
         const auto estimate = device_->estimate.load();
-        return stream::FrameWork{estimate.count() > 0 ? estimate : device_->frame_time.load(),
-                                 limit_share, waiting_};
+        return FrameWork{estimate.count() > 0 ? estimate : device_->frame_time.load(), limit_share,
+                         waiting_};
     }
 
     [[nodiscard]] Result<void> submitPiece() override {

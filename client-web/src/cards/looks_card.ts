@@ -96,7 +96,7 @@ export class LooksCard {
     const cost = this.costs.ofMs(look.name);
     if (cost !== undefined) {
       const text = make('small', `${ms(cost)} ms`);
-      text.title = 'What a frame of it took on the device when it was last seen here';
+      text.title = 'Device time of a frame when this look was last shown here';
       choose.append(' ', text);
     }
     if (this.actions.isLookNow(look)) choose.setAttribute('aria-current', 'true');

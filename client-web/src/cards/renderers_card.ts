@@ -51,7 +51,7 @@ export class RenderersCard {
     choose.type = 'button';
     const cost = this.costs.ofMs(costName(renderer));
     const figure = make('small', cost === undefined ? 'not drawn here yet' : `${ms(cost)} ms a frame`);
-    figure.title = 'What a frame took on the device when this renderer last drew the view';
+    figure.title = 'Device time of a frame when this renderer last drew the view';
     choose.append(make('b', label), figure, make('span', help));
     if (renderer === this.actions.renderer()) choose.setAttribute('aria-current', 'true');
     choose.addEventListener('click', () => {

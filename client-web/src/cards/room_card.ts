@@ -16,7 +16,7 @@ export interface RoomDoors {
   copyRoomLink(name: string): void;
 }
 
-const kAlone = 'A room is one view for all who open its link. One of them controls it at a time.';
+const kAlone = 'A room is one view for everybody who opens its link. One viewer controls it at a time.';
 
 export class RoomCard {
   private readonly card = element('room', HTMLElement);

@@ -104,7 +104,7 @@ export class ScenesCard {
       const text = folded(`${name} ${path}`);
       return words.every((word) => text.includes(word));
     });
-    this.said.textContent = this.rows.length > 0 && found.length === 0 ? 'No scene has that in its name.' : '';
+    this.said.textContent = this.rows.length > 0 && found.length === 0 ? 'No scene matches.' : '';
     this.seen.disconnect();
     this.items.clear();
     found.sort(this.order.value === 'newest' ? byTime : byName);

@@ -48,7 +48,7 @@ export class SearchCard {
         return item;
       }),
     );
-    if (this.found.length === 0) this.list.append(make('li', 'Nothing has that in its name'));
+    if (this.found.length === 0) this.list.append(make('li', 'Nothing matches'));
     this.mark();
   }
 

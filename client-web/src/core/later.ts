@@ -1,6 +1,6 @@
 // Parts of the page that are fetched when they are first wanted, so that the picture comes first.
 
-export const kMissing = 'A part of this page could not be fetched. Reload it when the server is there.';
+export const kMissing = 'A part of this page could not be fetched. Reload the page when the server is reachable.';
 
 export class Later<T> {
   private part: T | null = null;

@@ -34,7 +34,7 @@ export class BoxEditor {
       }
     }
     this.whole = folder.add({ clear: () => onEdit(null) }, 'clear');
-    mark(this.whole, 'light_box.clear', 'Light box: whole scene', 'Lets the moving lights go wherever the scene reaches');
+    mark(this.whole, 'light_box.clear', 'Light box: whole scene', 'Lets the moving lights fill the whole scene');
     this.fill(null);
   }
 

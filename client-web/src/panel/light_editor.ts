@@ -85,18 +85,18 @@ export class LightEditor {
   ) {
     this.folder = parent.addFolder('Placed lights');
     const folder = this.folder;
-    this.button('add', 'Add a light', 'Puts a new light before the camera; it costs as a moving one does. A double click in the picture picks the light there', () =>
+    this.button('add', 'Add a light', 'Places a new light in front of the camera; it costs as much as a moving one. A double click in the picture picks a light', () =>
       actions.addLight(),
     );
     this.chooser = this.addChooser([]);
     this.addValues();
-    this.remove = this.button('remove', 'Delete this light', 'Takes the chosen light away, as the Delete key at its ring does; a picked one goes back to what it was', () => {
+    this.remove = this.button('remove', 'Delete this light', 'Removes the selected light, like the Delete key at its ring; a picked light returns to its original', () => {
       if (this.shown) actions.removeLight(this.shown.id);
     });
     const handles = folder.add(this.model, 'handles');
     handles.onChange((visible: boolean) => actions.showHandles(visible));
-    this.describe(handles, 'handles', 'Rings over lights', 'Shows rings over the picture to choose and drag placed lights by');
-    this.button('load', 'Load a light set…', 'Reads placed lights from a JSON file, in place of those that are there', () =>
+    this.describe(handles, 'handles', 'Rings over lights', 'Shows rings over the picture that select and drag placed lights');
+    this.button('load', 'Load a light set…', 'Replaces the placed lights by those of a JSON file', () =>
       this.load(),
     );
     this.button('save', 'Save the light set', 'Saves the placed lights as a JSON file, for this page and for --light-set', () =>
@@ -112,32 +112,32 @@ export class LightEditor {
       'kind',
       Object.fromEntries(kLightKinds.map(({ name, value }) => [name, value])),
     );
-    this.value(kind, 'kind', 'Light kind', 'Kind of the chosen light. A spot’s cone costs a little in each pixel, a rectangle as much as ten points', () => ({
+    this.value(kind, 'kind', 'Light kind', 'Kind of the selected light. A spot’s cone costs a little in each pixel, a rectangle as much as ten points', () => ({
       kind: this.model.kind,
     }));
     const color = this.folder.addColor(this.model, 'color');
-    this.value(color, 'color', 'Light colour', 'Colour of the chosen light as the screen shows it', () => ({
+    this.value(color, 'color', 'Light colour', 'Colour of the selected light as the screen shows it', () => ({
       color: linearColor(this.model.color),
     }));
-    this.number('intensity', 'Light intensity', 'Factor on the colour of the chosen light', () => ({
+    this.number('intensity', 'Light intensity', 'Factor on the colour of the selected light', () => ({
       intensity: this.model.intensity,
     }));
-    this.number('radius', 'Light reach, m', 'Distance at which the chosen light ends; its cost grows with the pixels within', () => ({
+    this.number('radius', 'Light reach, m', 'Distance at which the selected light ends; its cost grows with the pixels within', () => ({
       radius: this.model.radius,
     }));
     for (const axis of ['x', 'y', 'z'] as const) {
-      this.number(axis, `Light at ${axis}, m`, `Place of the chosen light along ${axis} of the world`, () => ({
+      this.number(axis, `Light at ${axis}, m`, `Position of the selected light along ${axis} of the world`, () => ({
         position: { x: this.model.x, y: this.model.y, z: this.model.z },
       }));
     }
-    this.number('innerConeDeg', 'Inner cone, deg', 'Half angle of the cone in which the chosen spot light is full', () => ({
+    this.number('innerConeDeg', 'Inner cone, deg', 'Half angle of the cone with full brightness of the selected spot light', () => ({
       innerConeDeg: this.model.innerConeDeg,
     }));
-    this.number('outerConeDeg', 'Outer cone, deg', 'Half angle of the cone at which the chosen spot light ends', () => ({
+    this.number('outerConeDeg', 'Outer cone, deg', 'Half angle of the cone at which the selected spot light ends', () => ({
       outerConeDeg: this.model.outerConeDeg,
     }));
     for (const key of ['directionX', 'directionY', 'directionZ'] as const) {
-      this.number(key, `Light towards ${key.slice(-1).toLowerCase()}`, 'Direction in which the chosen light shines', () => ({
+      this.number(key, `Light towards ${key.slice(-1).toLowerCase()}`, 'Direction of the selected light', () => ({
         direction: {
           x: this.model.directionX,
           y: this.model.directionY,
@@ -146,9 +146,9 @@ export class LightEditor {
       }));
     }
     for (const [key, label, tip] of [
-      ['widthM', 'Light width, m', 'Width of the chosen rectangle; a larger one is softer, not brighter'],
-      ['heightM', 'Light height, m', 'Height of the chosen rectangle; a larger one is softer, not brighter'],
-      ['rollDeg', 'Light roll, deg', 'Turn of the chosen rectangle about its direction'],
+      ['widthM', 'Light width, m', 'Width of the selected rectangle; a larger one is softer, not brighter'],
+      ['heightM', 'Light height, m', 'Height of the selected rectangle; a larger one is softer, not brighter'],
+      ['rollDeg', 'Light roll, deg', 'Rotation of the selected rectangle about its direction'],
     ] as const) {
       this.number(key, label, tip, () => ({ [key]: this.model[key] }));
     }
@@ -205,7 +205,7 @@ export class LightEditor {
     const before = this.chooser as Controller | undefined;
     const chooser = before ? before.options(options) : this.folder.add(this.model, 'chosen', options);
     chooser.onChange((id: string) => this.actions.chooseLight(id === kNone ? null : Number(id)));
-    this.describe(chooser, 'chosen', 'Chosen light', 'Placed light whose values stand below; its ring chooses it, too');
+    this.describe(chooser, 'chosen', 'Chosen light', 'Placed light whose values are shown below; its ring selects it, too');
     return chooser;
   }
 

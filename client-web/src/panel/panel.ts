@@ -192,7 +192,7 @@ export class Panel {
         ? Object.fromEntries(decoded.map(({ name, value }) => [name.replaceAll('_', ' '), value]))
         : undefined;
     const limits =
-      decoded.length < choices.length ? 'This browser decodes no video here: it needs WebCodecs, and those https' : '';
+      decoded.length < choices.length ? 'This browser cannot decode video here: video needs WebCodecs, which need https' : '';
     const controller = options ? folder.add(model, 'value', options) : folder.add(model, 'value');
     controller.onChange((value: number | boolean) => this.actions.set(field, value));
     this.finish(controller, field, limits, (settings) => {

@@ -36,7 +36,7 @@ export class SizeEditor {
         const [width, height] = name.split('×').map(Number);
         if (width && height) actions.setSize(width, height);
       });
-    mark(mode, 'size', 'Picture size', 'Size of the picture in pixels: as the window, a preset, or any');
+    mark(mode, 'size', 'Picture size', 'Size of the picture in pixels: the window\'s size, a preset, or any other');
 
     const setScale = (scale: number): void => actions.setSizeMode({ kind: 'auto', scale });
     const scale = parent.add(this.model, 'scale');

@@ -22,21 +22,21 @@ const kOwnWords: ReadonlyMap<string, OwnWords> = new Map([
     'lens_shift.x',
     {
       label: 'Lens shift sideways',
-      help: 'Moves the picture’s middle right of the view axis, in half widths',
+      help: 'Shifts the picture’s centre to the right of the view axis, in half widths',
     },
   ],
   [
     'lens_shift.y',
     {
       label: 'Lens shift upwards',
-      help: 'Moves the picture’s middle above the view axis, in half heights: straight verticals',
+      help: 'Shifts the picture’s centre above the view axis, in half heights; keeps verticals straight',
     },
   ],
   [
     'grid.auto',
     {
       label: 'Automatic grid',
-      help: 'Lets the server choose the cluster grid; off: tiles and slices as set here',
+      help: 'The server chooses the cluster grid; off: tiles and slices as set here',
     },
   ],
   [
@@ -45,7 +45,7 @@ const kOwnWords: ReadonlyMap<string, OwnWords> = new Map([
   ],
   [
     'material_variant',
-    { label: 'Variant', help: 'Materials that the scene is shown with, of those in its file' },
+    { label: 'Variant', help: 'Material variant of the scene’s file' },
   ],
   ['grid.x', { label: 'Tiles across', help: 'Number of clusters along the picture’s width' }],
   ['grid.y', { label: 'Tiles down', help: 'Number of clusters along the picture’s height' }],
@@ -54,7 +54,7 @@ const kOwnWords: ReadonlyMap<string, OwnWords> = new Map([
     'debug_frozen',
     {
       label: 'Freeze clusters',
-      help: 'Keeps this camera’s cluster grid for the cluster wires while the view moves on; costs the host a second grid',
+      help: 'Freezes this camera’s cluster grid for the cluster wires while the view moves; the host builds a second grid',
     },
   ],
 ]);

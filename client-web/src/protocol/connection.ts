@@ -84,21 +84,21 @@ interface End {
 /** Closes after which only a viewer can go on. */
 const kEnds: Readonly<Record<number, End>> = {
   1008: {
-    reason: 'The server ended this connection: too many messages, too many refused ones, or no greeting in time.',
+    reason: 'The server closed this connection: too many messages, too many refused messages, or no greeting in time.',
     remedy: connect('Connect again'),
   },
   1009: {
-    reason: 'The server ended this connection: a message was too big.',
+    reason: 'The server closed this connection: a message was too large.',
     remedy: connect('Connect again'),
   },
   4001: {
-    reason: 'This page is of another version than the server.',
+    reason: 'This page and the server have different versions.',
     remedy: { label: 'Reload', act: 'reload' },
   },
-  4003: { reason: 'This server asks for a token.', remedy: connect('Enter a token') },
-  4009: { reason: 'This view went to another tab or window.', remedy: connect('Show it here') },
+  4003: { reason: 'This server requires a token.', remedy: connect('Enter a token') },
+  4009: { reason: 'This view moved to another tab or window.', remedy: connect('Show it here') },
   4011: {
-    reason: 'Nobody watched this view for a while, so its place was given away.',
+    reason: 'Nobody watched this view for a while, so another viewer got its place.',
     remedy: connect('Go on'),
   },
 };
@@ -106,12 +106,12 @@ const kEnds: Readonly<Record<number, End>> = {
 /** Closes after which the page tries again by itself. */
 const kPauses: Readonly<Record<number, string>> = {
   4008: 'Your connection is too slow for this view. A smaller window takes less.',
-  4010: 'The server is going down.',
-  4029: 'Every place on this server is taken. One is free when a viewer leaves.',
-  4030: 'This server draws for as many viewers as it can. One more fits when a viewer leaves or rests.',
-  4031: 'Your address or token has as many views open here as it may. Closing one of them makes room.',
-  4032: 'Every place in this room is taken. One is free when a viewer leaves.',
-  4033: 'This server has no memory for one more view. There is some when a viewer leaves.',
+  4010: 'The server is shutting down.',
+  4029: 'All places on this server are in use. One becomes free when a viewer leaves.',
+  4030: 'This server cannot draw for more viewers now. There is room when a viewer leaves or pauses.',
+  4031: 'Your address or token has the maximum number of open views here. Close one of them to make room.',
+  4032: 'All places in this room are in use. One becomes free when a viewer leaves.',
+  4033: 'This server has no memory for another view. Memory becomes free when a viewer leaves.',
   4050: 'The server lost its graphics device.',
 };
 

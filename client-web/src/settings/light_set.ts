@@ -13,10 +13,10 @@ export function lightSetText(lights: PlacedLights): string {
 /** The server judges its values. Throws where it is none. */
 export function lightSetOf(text: string): PlacedLights {
   const set = fromJsonString(PlacedLightsSchema, text);
-  if (set.clear || set.remove.length > 0) throw new Error('a light set has lights alone');
+  if (set.clear || set.remove.length > 0) throw new Error('a light set may contain only lights');
   const ids = new Set<number>();
   for (const { id, position } of set.lights) {
-    if (id === 0 || ids.has(id)) throw new Error(`light id ${id} is 0 or there twice`);
+    if (id === 0 || ids.has(id)) throw new Error(`light id ${id} is 0 or appears twice`);
     if (!position) throw new Error(`light ${id} has no position`);
     ids.add(id);
   }

@@ -55,7 +55,7 @@ function kindOf(field: DescField): Kind {
     case ScalarType.DOUBLE:
       return { kind: 'number', integer: false, ...sliderOf(field) };
     default:
-      throw new Error(`${field.toString()} is of no kind that a setting can have`);
+      throw new Error(`${field.toString()} is not of a kind that a setting can have`);
   }
 }
 

@@ -31,7 +31,7 @@ export class AddressKeeper {
     const { codec, ...others } = settings;
     const decodes = codec === undefined || this.codecs().includes(codec);
     if (!decodes) {
-      problems.push(`link: codec=${Codec[codec].toLowerCase()} is not decoded by this browser here; video needs WebCodecs, and those https`);
+      problems.push(`link: codec=${Codec[codec].toLowerCase()} cannot be decoded here; video needs WebCodecs, which need https`);
     }
     const first = this.store.state.settings === null ? this.wishes : {};
     const wanted = { ...first, ...(decodes ? settings : others) };
@@ -50,7 +50,7 @@ export class AddressKeeper {
       this.store.dispatch({ type: 'restored', wanted: { ...(all && wanted), placedLights }, size: null, scene });
     } catch (error) {
       const why = error instanceof Error ? error.message : '';
-      this.store.dispatch({ type: 'notice', tone: 'error', text: `link: placed_lights is no light set: ${why}` });
+      this.store.dispatch({ type: 'notice', tone: 'error', text: `link: placed_lights is not a light set: ${why}` });
     }
   }
 
@@ -74,7 +74,7 @@ export class AddressKeeper {
     }
     const said = copied ? `The link to ${what} is on the clipboard.` : `Copy the link to ${what}: ${link}`;
     const { hostname } = new URL(link);
-    const alone = isLoopback(hostname) ? ` It leads nowhere from other computers: ${hostname} is each one's name for itself.` : '';
+    const alone = isLoopback(hostname) ? ` It does not work on other computers: ${hostname} is every computer's own name.` : '';
     this.store.dispatch({ type: 'notice', tone: 'info', text: said + alone, stays: !copied || alone !== '' });
   }
 

@@ -353,14 +353,14 @@ function sceneChanged(state: AppState, changed: SceneChanged): AppState {
 }
 
 const kGoingDown: Notice = {
-  text: 'The server is going down. The view goes on at the next one.',
+  text: 'The server is shutting down. The view continues on the next server.',
   tone: 'info',
   stays: true,
 };
 
 function givenAway({ keeps }: AppState, { resumed }: Welcome): Notice | null {
   if (!keeps || resumed) return null;
-  const text = 'The server had given this view away meanwhile. This is a new one with your settings.';
+  const text = 'Another viewer got the place of this view meanwhile. This is a new view with your settings.';
   return { text, tone: 'info' };
 }
 

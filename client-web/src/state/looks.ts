@@ -76,6 +76,6 @@ function write(looks: readonly Pick<Look, 'label' | 'address'>[]): string | null
     localStorage.setItem(kKept, JSON.stringify(looks.map(({ label, address }) => ({ label, address }))));
     return null;
   } catch {
-    return 'this browser keeps nothing for this page: it is forbidden, or there is no room';
+    return 'this browser stores nothing for this page: storage is forbidden or full';
   }
 }

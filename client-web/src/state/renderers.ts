@@ -22,17 +22,17 @@ export const kRenderers: readonly Words[] = [
   {
     renderer: Renderer.NAIVE,
     label: 'Naive',
-    help: 'Asks every light for every pixel. The same picture, slow from some hundred lights on: it shows what lists of lights save.',
+    help: 'Evaluates every light for every pixel. The picture is the same. It is slow from some hundred lights on, and shows the gain of light lists.',
   },
   {
     renderer: Renderer.TOON_FRAGMENT,
     label: 'Toon, light by light',
-    help: 'Cel shading: the light of each lamp comes in steps.',
+    help: 'Cel shading: the light of each lamp has steps.',
   },
   {
     renderer: Renderer.TOON_COMPUTE,
     label: 'Toon, brightness in steps',
-    help: 'Cel shading: the sum of all light comes in steps, with outlines.',
+    help: 'Cel shading: the sum of all light has steps, with outlines.',
   },
 ];
 

@@ -54,6 +54,6 @@ export function roomFromAddress(search: string): WantedRoom {
   const name = new URLSearchParams(search).get('room') ?? '';
   if (name === '' || kRoomName.test(name)) return { name };
   return {
-    problem: `room=${name.slice(0, 80)} is no room's name: 1 to 64 of A-Z a-z 0-9 . _ - are needed.`,
+    problem: `room=${name.slice(0, 80)} is not a room name: use 1 to 64 characters of A-Z a-z 0-9 . _ -.`,
   };
 }

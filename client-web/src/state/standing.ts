@@ -62,18 +62,18 @@ export function standingOf(state: AppState, { nowMs, hasPicture, lagMs, shown }:
   if (!hasPicture) return well;
   if (!live) {
     if (!loading) return { ...well, text: 'Connecting…' };
-    return { ...well, text: 'The server started anew.', aside: `${loadingText(loading)}.` };
+    return { ...well, text: 'The server restarted.', aside: `${loadingText(loading)}.` };
   }
   if (sceneLoading) {
     const remedy: Remedy = { label: 'Cancel', act: 'stay' };
-    return { ...well, text: 'Another scene is on its way.', aside: `${loadingText(sceneLoading)}.`, remedy };
+    return { ...well, text: 'Another scene is loading.', aside: `${loadingText(sceneLoading)}.`, remedy };
   }
   if (loading) return { ...well, text: 'This view is drawn for the first time.', aside: `${loadingText(loading)}.` };
   if (shown && shown.fullSizeUs > 0) return { ...well, text: smallerText(state, shown) };
   if (lagMs < kSlowMs) return well;
   return {
     ...well,
-    text: 'This view is slow to draw. Fewer lights or a smaller size are drawn sooner.',
+    text: 'This view is slow to draw. Fewer lights or a smaller size draw faster.',
     aside: `${Math.floor(lagMs / 1000)} s behind.`,
   };
 }
@@ -98,7 +98,7 @@ function loadingText({ stage, fraction }: Loading): string {
 
 /** What a screen reader says of the picture. */
 export function pictureLabel({ server, settings }: AppState): string {
-  if (!server || !settings) return 'The picture, which is not there yet';
+  if (!server || !settings) return 'The picture, which has not arrived yet';
   const scene = server.scene?.name ?? 'No scene';
   const drawn = `drawn by ${nameIn(RendererSchema, settings.renderer)} with ${count(settings.lights)} lights`;
   return `${scene}, ${drawn}. Arrow keys turn the view, plus and minus zoom, question mark has all keys.`;

@@ -84,9 +84,9 @@ describe('light sets', () => {
   it.each([
     ['{', /JSON/],
     ['{"lights":3}', /lights/],
-    ['{"clear":true}', /lights alone/],
+    ['{"clear":true}', /only lights/],
     ['{"lights":[{"position":{}}]}', /id 0/],
-    ['{"lights":[{"id":1,"position":{}},{"id":1,"position":{}}]}', /there twice/],
+    ['{"lights":[{"id":1,"position":{}},{"id":1,"position":{}}]}', /appears twice/],
     ['{"lights":[{"id":1}]}', /no position/],
   ])('NoSet_%s_Throws', (text, why) => {
     expect(() => lightSetOf(text)).toThrow(why);

@@ -47,7 +47,7 @@ describe('a pick', () => {
 
   it('Missed_GoesHome_WithoutAWord', () => {
     const aside = run(asked, { type: 'edit', patch: { eye: { x: 9, y: 9, z: 9 } } });
-    const value = { code: ErrorCode.OUT_OF_RANGE, refSeq: 4n, field: 'x', message: 'x is at no light' };
+    const value = { code: ErrorCode.OUT_OF_RANGE, refSeq: 4n, field: 'x', message: 'x hits no light' };
     const state = run(aside, received({ case: 'error', value }));
     expect(state.settings?.eye).toEqual(live.server?.initial.eye);
     expect(state.pick).toBeNull();
@@ -55,12 +55,12 @@ describe('a pick', () => {
   });
 
   it('Refused_TakesNoEditBack', () => {
-    const value = { code: ErrorCode.OUT_OF_RANGE, refSeq: 4n, field: 'id', message: 'x is at no light' };
+    const value = { code: ErrorCode.OUT_OF_RANGE, refSeq: 4n, field: 'id', message: 'x hits no light' };
     const state = run(asked, edit(7), received({ case: 'error', value }));
     expect(state.settings?.lights).toBe(7);
     expect(state.pick).toBeNull();
     expect(state.chosenLight).toBe(live.chosenLight);
-    expect(state.notice?.text).toBe('x is at no light');
+    expect(state.notice?.text).toBe('x hits no light');
   });
 });
 
@@ -164,7 +164,7 @@ describe('welcome', () => {
     const kept = run(kInitialState, greeted('secret', false));
     expect(kept.notice).toBeNull();
     expect(run(kept, greeted('other', true)).notice).toBeNull();
-    expect(run(kept, greeted('other', false)).notice?.text).toContain('given this view away');
+    expect(run(kept, greeted('other', false)).notice?.text).toContain('got the place of this view');
     const keepsNone = run(kInitialState, greeted('', false));
     expect(run(keepsNone, greeted('', false)).notice).toBeNull();
     const draining = received({ case: 'draining', value: { deadlineMs: 1 } });

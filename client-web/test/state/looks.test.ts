@@ -76,5 +76,5 @@ test('OwnLooks_WhereNothingMayBeKept_SaySo', () => {
   };
   vi.stubGlobal('localStorage', { getItem: refuse, setItem: refuse });
   expect(ownLooks()).toEqual([]);
-  expect(keepLook('Mine', 'lights=3')).toContain('keeps nothing');
+  expect(keepLook('Mine', 'lights=3')).toContain('stores nothing');
 });

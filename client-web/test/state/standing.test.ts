@@ -33,7 +33,7 @@ describe('standingOf', () => {
     expect(standing(kInitialState)).toMatchObject({ text: 'Connecting…', progress: null, dims: true });
     const loading = { ...kInitialState, loading: { stage: 'reading the scene', fraction: 1 } };
     expect(standing(loading)).toMatchObject({
-      text: 'The server started anew.',
+      text: 'The server restarted.',
       aside: 'Reading the scene, 100 %.',
     });
   });
@@ -97,7 +97,7 @@ describe('standingOf', () => {
   it('AnotherSceneOnItsWay_MayBeCalledOff', () => {
     const sceneLoading = { scene: 'fox', stage: 'reading the scene', fraction: 0.426 };
     expect(standing({ ...live, sceneLoading }, { lagMs: 9_000 })).toMatchObject({
-      text: 'Another scene is on its way.',
+      text: 'Another scene is loading.',
       aside: 'Reading the scene, 43 %.',
       remedy: { label: 'Cancel', act: 'stay' },
       dims: false,
@@ -115,7 +115,7 @@ describe('standingOf', () => {
 
 describe('pictureLabel', () => {
   it('Picture_IsNamedByItsSceneAndHowItIsDrawn', () => {
-    expect(pictureLabel(kInitialState)).toBe('The picture, which is not there yet');
+    expect(pictureLabel(kInitialState)).toBe('The picture, which has not arrived yet');
     const scene = welcomed.server?.scene?.name ?? '';
     expect(pictureLabel(welcomed)).toMatch(`${scene}, drawn by clustered deferred with ${count(1000)} lights.`);
   });

@@ -47,8 +47,8 @@ class Background final : public Effect {
     static void recordPart(const FrameContext& frame, const vk::Rect2D& region) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "background");
         const auto& cmd = frame.slot.cmd;
-        frame.scene.shared.kept<BackgroundPipeline>().pipeline.bind(cmd,
-                                                                    frame.scene.shared.variants);
+        frame.scene.shared.stored<BackgroundPipeline>().pipeline.bind(cmd,
+                                                                      frame.scene.shared.variants);
         const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set};
         cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
                                frame.scene.shared.pipelines.screenPipelineLayout(), 0, sets, {});
@@ -69,8 +69,8 @@ const EffectRow kBackgroundEffect{
     .plan = planOfBackground,
     .words =
         [](const settings::ViewSettings&, const EffectPlan&) {
-            return std::string("background: what is around shows behind the scene, in a pass of "
-                               "its own");
+            return std::string(
+                "background: a separate pass shows the environment behind the scene");
         },
     .make = makeEffect<Background>};
 

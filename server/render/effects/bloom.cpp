@@ -189,7 +189,7 @@ class Bloom final : public Effect {
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
         if (!targets_) {
             targets_ = std::make_shared<BloomTargets>(
-                scene_.shared.device, scene_.shared.kept<BloomPipelines>().setLayout(), plan_,
+                scene_.shared.device, scene_.shared.stored<BloomPipelines>().setLayout(), plan_,
                 slot.targets);
         }
         slot.effect_targets.hold(targets_);
@@ -228,7 +228,7 @@ class Bloom final : public Effect {
         const auto& cmd = frame.slot.cmd;
         const gpu::PassScope scope(frame.slot.timestamps, cmd, "bloom");
         const BloomStep& step = plan_.steps[index];
-        auto& shared = frame.scene.shared.kept<BloomPipelines>();
+        auto& shared = frame.scene.shared.stored<BloomPipelines>();
         cmd.bindPipeline(
             vk::PipelineBindPoint::eCompute,
             shared.pipeline(step.shader, step.flags() | (metered_ ? io::kBloomMetered : 0U)));
@@ -256,7 +256,7 @@ std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
 
 std::string wordsOf(const settings::ViewSettings& /*settings*/, const EffectPlan& plan) {
     return "bloom by " + std::string(settings::kBloomKindNames[plan.way]) +
-           ": bright light is spread over the linear picture";
+           ": bright light spreads over the linear picture";
 }
 
 std::optional<std::string> memoryWordsOf(const settings::ViewSettings& settings) {

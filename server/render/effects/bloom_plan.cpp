@@ -177,7 +177,7 @@ Result<void> checkKernels(const BloomPlan& plan, bool device_is_cpu) {
         if (device_is_cpu && tapsOf(step) > kMostIterations) {
             return Error{ErrorCode::kUnsupported,
                          fmt::format("bloom takes {:.0f} taps for a pixel; this device's loops "
-                                     "have at most {:.0f}: ask for mip_chain, a smaller radius, "
+                                     "have at most {:.0f}; use mip_chain, a smaller radius, "
                                      "or a smaller picture",
                                      tapsOf(step), kMostIterations)};
         }

@@ -22,7 +22,7 @@ class Environment final : public Effect {
 
     Result<void> build(const EffectInputs& inputs, const EffectPlan& /*plan*/) override {
         const auto& settings = inputs.settings;
-        const auto map = scene_.kept<EnvironmentMaps>().find(settings.environment.light);
+        const auto map = scene_.stored<EnvironmentMaps>().find(settings.environment.light);
         if (!map) {
             return map.error();
         }
@@ -30,7 +30,7 @@ class Environment final : public Effect {
         uniforms_ = makeEnvironment(settings.environment, settings.camera, map_->seen->matt);
         return {};
     }
-    void addLoad(const UnitCosts& unit, FrameLoad& load) const override {
+    void addLoad(const UnitCosts& unit, CostInputs& load) const override {
         load.lit_pixel += onDevice(unit, kEnvironmentLookup);
     }
     void addCosts(const FrameCosts& /*costs*/,
@@ -40,7 +40,7 @@ class Environment final : public Effect {
             upload.add(std::span<const io::Environment>(&uniforms_, 1)), sizeof(uniforms_)};
         blocks[io::kLevelsBinding] = {.bytes = map_->texels.size_bytes,
                                       .buffer = *map_->texels.handle};
-        const gpu::Buffer& lobes = scene_.kept<EnvironmentMaps>().lobes();
+        const gpu::Buffer& lobes = scene_.stored<EnvironmentMaps>().lobes();
         blocks[io::kLobesBinding] = {.bytes = lobes.size_bytes, .buffer = *lobes.handle};
     }
 
@@ -59,8 +59,8 @@ std::optional<EffectPlan> planOfEnvironment(const settings::ViewSettings& settin
 
 std::string wordsOfEnvironment(const settings::ViewSettings& settings, const EffectPlan& /*plan*/) {
     const auto light = static_cast<size_t>(settings.environment.light);
-    return "environment: light from around by the " +
-           std::string(settings::kEnvironmentLightNames[light]) + ", in the ambient light's place";
+    return "environment: " + std::string(settings::kEnvironmentLightNames[light]) +
+           ", replaces the ambient light";
 }
 
 } // namespace

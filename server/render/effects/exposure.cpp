@@ -144,8 +144,8 @@ void Exposure::prepare(FrameSlot& slot, FrameBlocks& blocks) {
         targets_ = std::make_shared<ExposureTargets>(scene_.shared.device);
     }
     slot.effect_targets.hold(targets_);
-    const auto& shared = scene_.shared.kept<ExposurePipelines>();
-    slot.kept.findOrMake<ExposureSet>(scene_.shared.device, *shared.set_layout)
+    const auto& shared = scene_.shared.stored<ExposurePipelines>();
+    slot.stored.findOrMake<ExposureSet>(scene_.shared.device, *shared.set_layout)
         .write(scene_.shared.device, targets_->counts, slot.upload.buffer(),
                blocks[io::kFrameBinding]);
 }
@@ -169,7 +169,7 @@ void Exposure::record(const FrameContext& frame) const {
 
 void Exposure::addResults(const FrameSlot& slot, FrameStats& stats) const {
     float exposure = 0;
-    std::memcpy(&exposure, slot.upload.mapped() + slot.kept.get<ExposureSet>().exposure_offset,
+    std::memcpy(&exposure, slot.upload.mapped() + slot.stored.get<ExposureSet>().exposure_offset,
                 sizeof(exposure));
     stats.metered_ev = std::log2(static_cast<double>(exposure) /
                                  static_cast<double>(slot.inputs.settings.exposure));
@@ -179,22 +179,22 @@ void Exposure::bind(const FrameContext& frame, SharedPipeline& pipeline) {
     const auto& cmd = frame.slot.cmd;
     pipeline.bind(cmd, frame.scene.shared.variants);
     const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
-                             *frame.slot.kept.get<ExposureSet>().set};
+                             *frame.slot.stored.get<ExposureSet>().set};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
-                           *frame.scene.shared.kept<ExposurePipelines>().layout, 0, sets, {});
+                           *frame.scene.shared.stored<ExposurePipelines>().layout, 0, sets, {});
 }
 
 // Reads radiance and depth.
 void Exposure::recordHistogram(const FrameContext& frame, const vk::Rect2D& invocations) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "exposure");
-    bind(frame, frame.scene.shared.kept<ExposurePipelines>().histogram);
+    bind(frame, frame.scene.shared.stored<ExposurePipelines>().histogram);
     dispatchOver(frame.slot.cmd, invocations);
 }
 
 // Reads the counts, changes the frame's exposure.
 void Exposure::recordMeter(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "exposure_meter");
-    bind(frame, frame.scene.shared.kept<ExposurePipelines>().meter);
+    bind(frame, frame.scene.shared.stored<ExposurePipelines>().meter);
     frame.slot.cmd.dispatch(1, 1, 1);
 }
 
@@ -211,8 +211,8 @@ const EffectRow kExposureEffect{
     .plan = planOfExposure,
     .words =
         [](const settings::ViewSettings&, const EffectPlan&) {
-            return std::string("exposure of this frame alone: by a histogram of its luminance, in "
-                               "a pass of its own");
+            return std::string(
+                "exposure of this frame: a separate pass measures a histogram of its luminance");
         },
     .make = makeEffect<Exposure>};
 

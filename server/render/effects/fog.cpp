@@ -122,7 +122,7 @@ class Fog final : public Effect {
                                                 inputs.pose.boundsWorld(), cluster::Lit::kMedium);
         fog_ = makeFog(settings, lit.far_m, inputs.time_s);
         if (hasEnvironment(settings)) {
-            const auto map = scene_.kept<EnvironmentMaps>().find(settings.environment.light);
+            const auto map = scene_.stored<EnvironmentMaps>().find(settings.environment.light);
             if (!map) {
                 return map.error();
             }
@@ -210,7 +210,7 @@ void Fog::prepare(FrameSlot& slot, FrameBlocks& blocks) {
     }
     if (!volume_) {
         volume_ = std::make_shared<FogVolume>(
-            scene_.shared.device, scene_.shared.kept<FogPipelines>().setLayout(), volumeBytes());
+            scene_.shared.device, scene_.shared.stored<FogPipelines>().setLayout(), volumeBytes());
     }
     slot.effect_targets.hold(volume_);
     blocks[io::kFogVolumeBinding] = {.bytes = volumeBytes(), .buffer = *volume_->froxels().handle};
@@ -245,7 +245,7 @@ void Fog::bind(const FrameContext& frame,
                vk::DescriptorSet second) {
     const auto& cmd = frame.slot.cmd;
     cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
-                     frame.scene.shared.kept<FogPipelines>().pipeline(shader, key));
+                     frame.scene.shared.stored<FogPipelines>().pipeline(shader, key));
     const std::array sets = {*frame.slot.frame_set, second};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0, sets, {});
 }
@@ -256,7 +256,7 @@ void Fog::recordScatter(const FrameContext& frame, const vk::Rect2D& nodes) cons
     const uint32_t noise = (plan_.way & kFogNoise) != 0 ? io::kOutputFogNoise : 0U;
     const uint32_t lights = fogLightFlags(frame.plan.forward_light_flags) & ~io::kLightDirectional;
     bind(frame, FogShader::kScatter, {0, lights, noise},
-         scene_.shared.kept<FogPipelines>().volumeLayout(),
+         scene_.shared.stored<FogPipelines>().volumeLayout(),
          frame.slot.effect_targets.get<FogVolume>().set());
     dispatchOver(frame.slot.cmd, nodes, fog_.slice_count);
 }
@@ -264,7 +264,7 @@ void Fog::recordScatter(const FrameContext& frame, const vk::Rect2D& nodes) cons
 // Adds it up from front to back.
 void Fog::recordIntegrate(const FrameContext& frame) const {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog_integrate");
-    bind(frame, FogShader::kIntegrate, {}, scene_.shared.kept<FogPipelines>().volumeLayout(),
+    bind(frame, FogShader::kIntegrate, {}, scene_.shared.stored<FogPipelines>().volumeLayout(),
          frame.slot.effect_targets.get<FogVolume>().set());
     frame.slot.cmd.dispatch(screenGroups(fog_.node_count_x), screenGroups(fog_.node_count_y), 1);
 }
@@ -292,11 +292,10 @@ std::optional<EffectPlan> planOfFog(const settings::ViewSettings& settings,
 }
 
 std::string wordsOfFog(const settings::ViewSettings& /*settings*/, const EffectPlan& plan) {
-    return (plan.way & kFogVolume) != 0
-               ? "fog: lights are scattered in a froxel volume by the same lists, in two passes, "
-                 "and all is seen through it, in one"
-               : "fog: no light to scatter, no froxel volume; all is seen through it, in a pass of "
-                 "its own";
+    return (plan.way & kFogVolume) != 0 ? "fog: two passes scatter lights in a froxel volume with "
+                                          "the same lists, and one pass applies it to the picture"
+                                        : "fog: no light to scatter, no froxel volume; one pass "
+                                          "applies the fog to the picture";
 }
 
 } // namespace

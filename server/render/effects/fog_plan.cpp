@@ -65,7 +65,7 @@ Result<void> checkFroxels(const io::Fog& fog, uint64_t most_texels) {
     if (count > most) {
         return Error{ErrorCode::kCapacity,
                      fmt::format("fog_tile and fog_slices ask for {}x{}x{} froxels, {} in all; at "
-                                 "most {} are allowed: ask for larger tiles or fewer slices",
+                                 "most {} are allowed; use larger tiles or fewer slices",
                                  fog.node_count_x, fog.node_count_y, fog.slice_count, count, most)};
     }
     return {};

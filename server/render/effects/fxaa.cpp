@@ -82,8 +82,8 @@ class Fxaa final : public Effect {
     }
 
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
-        const auto& pipeline = scene_.shared.kept<FxaaPipeline>();
-        slot.kept.findOrMake<FxaaSet>(scene_.shared.device, *pipeline.set_layout)
+        const auto& pipeline = scene_.shared.stored<FxaaPipeline>();
+        slot.stored.findOrMake<FxaaSet>(scene_.shared.device, *pipeline.set_layout)
             .write(scene_.shared.device, slot.targets->display, pixelsOf(slot));
     }
 
@@ -95,9 +95,9 @@ class Fxaa final : public Effect {
     static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
         const auto& cmd = frame.slot.cmd;
         const gpu::PassScope scope(frame.slot.timestamps, cmd, "fxaa");
-        auto& shared = frame.scene.shared.kept<FxaaPipeline>();
+        auto& shared = frame.scene.shared.stored<FxaaPipeline>();
         shared.pipeline.bind(cmd, frame.scene.shared.variants);
-        const std::array sets = {*frame.slot.frame_set, *frame.slot.kept.get<FxaaSet>().set};
+        const std::array sets = {*frame.slot.frame_set, *frame.slot.stored.get<FxaaSet>().set};
         cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *shared.layout, 0, sets, {});
         dispatchOver(cmd, part);
     }
@@ -118,8 +118,7 @@ const EffectRow kFxaaEffect{
     .plan = planOfFxaa,
     .words =
         [](const settings::ViewSettings&, const EffectPlan&) {
-            return std::string(
-                "fxaa: edges of the finished picture are filtered, in a pass of its own");
+            return std::string("fxaa: a separate pass filters edges of the finished picture");
         },
     .make = makeEffect<Fxaa>};
 

@@ -144,7 +144,7 @@ class Shadows final : public Effect {
         chooseFaces();
         return {};
     }
-    void addLoad(const UnitCosts& unit, FrameLoad& load) const override {
+    void addLoad(const UnitCosts& unit, CostInputs& load) const override {
         load.costly_lights.push_back({.count = static_cast<uint32_t>(frame_.lights.size()),
                                       .pair = onDevice(unit, kShadowPair)});
     }
@@ -161,7 +161,7 @@ class Shadows final : public Effect {
     void gather(FrameUpload& upload, FrameBlocks& blocks) override;
     void addStats(FrameStats& stats) const override {
         stats.shadows = frame_.stats();
-        stats.shadows.kept_count = static_cast<uint32_t>(frame_.faces.size() - changed_.size());
+        stats.shadows.reused_count = static_cast<uint32_t>(frame_.faces.size() - changed_.size());
     }
 
     void freeUnfit(const ViewTargets* /*view*/) override {
@@ -234,7 +234,7 @@ void Shadows::prepare(FrameSlot& slot, FrameBlocks& blocks) {
     }
     slot.effect_targets.hold(targets_);
     blocks[io::kShadowAtlasBinding].image = *targets_->atlas.view;
-    slot.kept.findOrMake<ShadowSet>(scene_.shared.device, scene_.shared.pipelines.frameLayout())
+    slot.stored.findOrMake<ShadowSet>(scene_.shared.device, scene_.shared.pipelines.frameLayout())
         .write(scene_.shared.device, slot.upload.buffer(), uniforms_offset_);
 }
 
@@ -285,7 +285,7 @@ void Shadows::recordFaces(const FrameContext& frame,
                         .layerCount = 1,
                         .pDepthAttachment = &depth});
     bindGeometry(frame, frame.scene.shared.pipelines.geometryPipelineLayout(),
-                 *frame.slot.kept.get<ShadowSet>().set, *frame.scene.index_buffer.handle,
+                 *frame.slot.stored.get<ShadowSet>().set, *frame.scene.index_buffer.handle,
                  rows_offset_);
     if (!whole) {
         std::vector<vk::ClearRect> tiles;

@@ -65,21 +65,22 @@ Scale scaleOf(DebugView view, const DebugFacts& facts) {
 const char* wordsOf(DebugView view) {
     static constexpr std::array kWords = {
         "",
-        "Position: x, y, z as red, green, blue over the scene's box",
+        "Position: x, y, z within the scene's box as red, green, blue",
         "Depth along the view axis",
         "World-space normal: -1 to 1 as 0 to 1",
         "Base colour, without light",
         "Occlusion, roughness, metalness as red, green, blue",
-        "G-buffer, raw: a row a word, a column a byte from the lowest",
-        "G-buffer's second target, raw: a row a word, a column a byte from the lowest",
+        "Raw G-buffer: one row for each word, one column for each byte, lowest byte first",
+        "Raw second target of the G-buffer: one row for each word, one column for each byte, "
+        "lowest byte first",
         "Depth slice of each pixel",
         "Tiles: column as red, row as green",
         "Lights in the list of each pixel",
         "Lights that each pixel loops over",
         "Lights that reach each pixel, by radius and cone",
-        "Lights that a pixel loops over in vain",
+        "Lights in a pixel's loop that do not reach it",
         "Fragments that passed the depth test, as drawn",
-        "Where lights end; faint behind surfaces",
+        "Spheres at the lights' radii; faint behind surfaces",
         "Clusters; faint behind surfaces",
     };
     static_assert(kWords.size() == settings::kDebugViewNames.size());

@@ -19,7 +19,7 @@ class FrameCosts;
 class FrameUpload;
 class NeedList;
 struct FrameContext;
-struct FrameLoad;
+struct CostInputs;
 struct FrameSlot;
 struct PassEstimate;
 struct UnitCosts;
@@ -52,7 +52,7 @@ class Effect {
         return {};
     }
     // What it is to the cost of other passes.
-    virtual void addLoad(const UnitCosts& /*unit*/, FrameLoad& /*load*/) const {}
+    virtual void addLoad(const UnitCosts& /*unit*/, CostInputs& /*load*/) const {}
     // Its passes, in order.
     virtual void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const = 0;
     // Of one pixel's loop over lights, where it has one: seconds a light.

@@ -46,24 +46,24 @@ checkAllLights(const UnitCosts& unit, const settings::ViewSettings& settings, Se
     }
     return Error{ErrorCode::kTooLong,
                  fmt::format("a picture of {}x{} whose pixels loop over all {} lights takes at "
-                             "least {:.3g} s of this device; at most {:.3g} s a frame are "
-                             "allowed: ask for fewer lights, lists, or a smaller picture",
+                             "least {:.3g} s of this device; a frame may take {:.3g} s. "
+                             "Use fewer lights, light lists, or a smaller picture",
                              settings.size.width_px, settings.size.height_px, settings.lights.count,
                              least.count(), limit.count()),
                  least / limit};
 }
 
 double FrameCosts::lit(const vk::Rect2D& region, const PairCost& unit) const {
-    const uint64_t longest = load_.pairs.longest();
-    double each = unit_.lit_pixel + load_.lit_pixel + load_.directional_count * unit.pair;
-    for (const auto& [count, pair] : load_.costly_lights) {
+    const uint64_t longest = inputs_.pairs.longest();
+    double each = unit_.lit_pixel + inputs_.lit_pixel + inputs_.directional_count * unit.pair;
+    for (const auto& [count, pair] : inputs_.costly_lights) {
         each += static_cast<double>(std::min<uint64_t>(count, longest)) * pair;
     }
-    return load_.pairs.pairs(region) * unit.pair + areaOf(region) * each;
+    return inputs_.pairs.pairs(region) * unit.pair + areaOf(region) * each;
 }
 
 Seconds FrameCosts::loop(const PairCost& unit) const {
-    return Seconds(static_cast<double>(load_.longest_loop) * unit.loop);
+    return Seconds(static_cast<double>(inputs_.longest_loop) * unit.loop);
 }
 
 RegionCost FrameCosts::shading(const PairCost& unit) const {
@@ -72,55 +72,56 @@ RegionCost FrameCosts::shading(const PairCost& unit) const {
 }
 
 RegionCost FrameCosts::depthPrepass() const {
-    return {Seconds(load_.draws.triangle_count * unit_.triangle / 2),
+    return {Seconds(inputs_.draws.triangle_count * unit_.triangle / 2),
             [this](const auto& region) { return Seconds(areaOf(region) * unit_.depth_pixel); }};
 }
 
 RegionCost FrameCosts::forward() const {
     // Behind a prepass each pixel is shaded once.
-    return shadedSurfaces(load_.plan.depth_prepass ? 1.0 : load_.overdraw);
+    return shadedSurfaces(inputs_.plan.depth_prepass ? 1.0 : inputs_.overdraw);
 }
 
 RegionCost FrameCosts::layers() const {
-    return load_.plan.visibility ? resolved(true) : shadedSurfaces(1);
+    return inputs_.plan.visibility ? resolved(true) : shadedSurfaces(1);
 }
 
 RegionCost FrameCosts::shadedSurfaces(double each) const {
-    return {Seconds(load_.draws.triangle_count * unit_.triangle),
+    return {Seconds(inputs_.draws.triangle_count * unit_.triangle),
             [this, each](const auto& region) {
                 return Seconds(each * (areaOf(region) * unit_.surface_pixel +
-                                       load_.lit_surfaces * lit(region, unit_.fragment)));
+                                       inputs_.lit_surfaces * lit(region, unit_.fragment)));
             },
-            load_.lit_surfaces * loop(unit_.fragment)};
+            inputs_.lit_surfaces * loop(unit_.fragment)};
 }
 
 RegionCost FrameCosts::gbuffer() const {
-    return {Seconds(load_.draws.triangle_count * unit_.triangle),
+    return {Seconds(inputs_.draws.triangle_count * unit_.triangle),
             [this](const auto& region) { return Seconds(areaOf(region) * unit_.surface_pixel); }};
 }
 
 RegionCost FrameCosts::ids() const {
-    return {Seconds(load_.device_triangles * unit_.triangle),
+    return {Seconds(inputs_.device_triangles * unit_.triangle),
             [this](const auto& region) { return Seconds(areaOf(region) * unit_.depth_pixel); }};
 }
 
 RegionCost FrameCosts::resolve() const {
-    return resolved(load_.plan.visibility_shade);
+    return resolved(inputs_.plan.visibility_shade);
 }
 
 RegionCost FrameCosts::resolved(bool shades) const {
     return {Seconds(0),
             [this, shades](const auto& region) {
-                const double surface = areaOf(region) * (unit_.surface_pixel +
-                                                         load_.resolve_count * unit_.resolve_pixel);
+                const double surface =
+                    areaOf(region) *
+                    (unit_.surface_pixel + inputs_.resolve_count * unit_.resolve_pixel);
                 return Seconds(surface +
-                               (shades ? load_.lit_surfaces * lit(region, unit_.compute) : 0.0));
+                               (shades ? inputs_.lit_surfaces * lit(region, unit_.compute) : 0.0));
             },
-            shades ? load_.lit_surfaces * loop(unit_.compute) : Seconds(0)};
+            shades ? inputs_.lit_surfaces * loop(unit_.compute) : Seconds(0)};
 }
 
 RegionCost FrameCosts::lighting() const {
-    const PairCost& unit = load_.plan.lighting_compute ? unit_.compute : unit_.fragment;
+    const PairCost& unit = inputs_.plan.lighting_compute ? unit_.compute : unit_.fragment;
     return shading(unit);
 }
 
@@ -129,26 +130,26 @@ RegionCost FrameCosts::countPairs() const {
 }
 
 RegionCost FrameCosts::debugView() const {
-    if (!settings::testsLights(load_.plan.debug)) {
+    if (!settings::testsLights(inputs_.plan.debug)) {
         return screen();
     }
     return shading(unit_.counting);
 }
 
 RegionCost FrameCosts::blended() const {
-    return {Seconds(load_.draws.transparent_triangle_count * unit_.triangle),
+    return {Seconds(inputs_.draws.transparent_triangle_count * unit_.triangle),
             [this](const auto& region) {
                 double sum = 0;
-                for (const vk::Rect2D& part : load_.draws.transparent_parts) {
+                for (const vk::Rect2D& part : inputs_.draws.transparent_parts) {
                     const vk::Rect2D both = common(part, region);
                     if (both.extent.width > 0) {
                         sum += areaOf(both) * unit_.surface_pixel +
-                               load_.lit_surfaces * lit(both, unit_.fragment);
+                               inputs_.lit_surfaces * lit(both, unit_.fragment);
                     }
                 }
                 return Seconds(sum + areaOf(region) * unit_.depth_pixel);
             },
-            load_.lit_surfaces * loop(unit_.fragment)};
+            inputs_.lit_surfaces * loop(unit_.fragment)};
 }
 
 RegionCost FrameCosts::screen() const {
@@ -162,12 +163,12 @@ RegionCost FrameCosts::radianceToHost() {
 }
 
 void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
-    const auto& plan = load_.plan;
-    const settings::Size& drawn = load_.drawn;
+    const auto& plan = inputs_.plan;
+    const settings::Size& drawn = inputs_.drawn;
     const auto add = [&](const char* name, const RegionCost& cost) {
         passes.push_back({name, timeOver(cost, drawn)});
     };
-    if (!plan.kept) {
+    if (!plan.reused) {
         if (plan.visibility) {
             add("visibility", ids());
         } else if (plan.depth_prepass || !(plan.forward || plan.gbuffer)) {
@@ -200,7 +201,7 @@ void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
 }
 
 void FrameCosts::addEffects(EffectPlace place, std::vector<PassEstimate>& passes) const {
-    for (const auto& [at, effect] : load_.effects) {
+    for (const auto& [at, effect] : inputs_.effects) {
         if (at == place) {
             effect->addCosts(*this, passes);
         }
@@ -208,13 +209,13 @@ void FrameCosts::addEffects(EffectPlace place, std::vector<PassEstimate>& passes
 }
 
 void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
-    const settings::Size& drawn = load_.drawn;
+    const settings::Size& drawn = inputs_.drawn;
     addEffects(EffectPlace::kSolid, passes);
-    if (load_.plan.transparent) {
-        const bool peeled = load_.plan.transparency == settings::Transparency::kPeeled;
-        const double layers = peeled ? load_.peel_layers : 1;
+    if (inputs_.plan.transparent) {
+        const bool peeled = inputs_.plan.transparency == settings::Transparency::kPeeled;
+        const double layers = peeled ? inputs_.peel_layers : 1;
         passes.push_back({peeled ? "peel" : "transparent", layers * timeOver(blended(), drawn)});
-        if (load_.plan.over_unlit) {
+        if (inputs_.plan.over_unlit) {
             passes.push_back({"blend_over_unlit", timeOver(screen(), drawn)});
         }
     }
@@ -222,27 +223,27 @@ void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
 
 std::vector<PassEstimate> FrameCosts::passes() const {
     std::vector<PassEstimate> passes;
-    if (load_.plan.pose && !load_.plan.pose_kept) {
+    if (inputs_.plan.pose && !inputs_.plan.pose_reused) {
         passes.push_back({"pose", pose()});
     }
     addEffects(EffectPlace::kLights, passes);
-    if (settings::replacesPicture(load_.plan.debug)) {
-        if (load_.plan.debug == settings::DebugView::kOverdraw) {
-            passes.push_back({"overdraw", timeOver(gbuffer(), load_.drawn)});
+    if (settings::replacesPicture(inputs_.plan.debug)) {
+        if (inputs_.plan.debug == settings::DebugView::kOverdraw) {
+            passes.push_back({"overdraw", timeOver(gbuffer(), inputs_.drawn)});
         } else {
             addSurfaces(passes);
         }
-        passes.push_back({"debug_view", timeOver(debugView(), load_.drawn)});
+        passes.push_back({"debug_view", timeOver(debugView(), inputs_.drawn)});
         return passes;
     }
     addSurfaces(passes);
     addBlended(passes);
     addEffects(EffectPlace::kPicture, passes);
-    if (load_.wire_lines > 0) {
-        passes.push_back({"wires", wires(load_.wire_lines)});
+    if (inputs_.wire_lines > 0) {
+        passes.push_back({"wires", wires(inputs_.wire_lines)});
     }
-    if (load_.plan.tonemap) {
-        passes.push_back({"tonemap", timeOver(screen(), load_.shown)});
+    if (inputs_.plan.tonemap) {
+        passes.push_back({"tonemap", timeOver(screen(), inputs_.shown)});
     }
     addEffects(EffectPlace::kPixels, passes);
     return passes;
@@ -257,13 +258,13 @@ Seconds FrameCosts::total() const {
 }
 
 Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {
-    const Seconds loop(static_cast<double>(load_.longest_loop) * slowestLoop());
+    const Seconds loop(static_cast<double>(inputs_.longest_loop) * slowestLoop());
     if (loop > loop_limit) {
         return Error{ErrorCode::kTooLong,
                      fmt::format("a pixel that loops over {} lights takes about {:.3g} s of this "
-                                 "device, however few pixels there are; at most {:.3g} s in one "
-                                 "are allowed: ask for fewer or smaller lights, or lists",
-                                 load_.longest_loop, loop.count(), loop_limit.count())};
+                                 "device, and such a loop may take {:.3g} s. "
+                                 "Use fewer or smaller lights, or light lists",
+                                 inputs_.longest_loop, loop.count(), loop_limit.count())};
     }
     const Seconds sum = total();
     if (sum <= limit) {
@@ -275,15 +276,15 @@ Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {
     return Error{
         ErrorCode::kTooLong,
         fmt::format("a picture of {}x{} with up to {} lights a pixel takes about {:.3g} s of this "
-                    "device, {:.3g} s of it for {}; at most {:.3g} s a frame are allowed: ask for "
-                    "fewer or smaller lights, lists, fewer effects, or a smaller picture",
-                    load_.shown.width_px, load_.shown.height_px, load_.pairs.longest(), sum.count(),
-                    dearest->time.count(), dearest->pass, limit.count()),
+                    "device, {:.3g} s of it for {}; a frame may take {:.3g} s. Use fewer or "
+                    "smaller lights, light lists, fewer effects, or a smaller picture",
+                    inputs_.shown.width_px, inputs_.shown.height_px, inputs_.pairs.longest(),
+                    sum.count(), dearest->time.count(), dearest->pass, limit.count()),
         sum / limit};
 }
 
 double FrameCosts::slowestLoop() const {
-    const FramePlan& plan = load_.plan;
+    const FramePlan& plan = inputs_.plan;
     const bool replaced = settings::replacesPicture(plan.debug);
     double slowest = 0;
     const auto add = [&](bool is_there, double loop) {
@@ -292,12 +293,12 @@ double FrameCosts::slowestLoop() const {
     add(!replaced && plan.lighting_compute, unit_.compute.loop);
     const bool layers_by_ids = plan.layers && plan.visibility;
     add(!replaced && (plan.visibility_shade || layers_by_ids),
-        load_.lit_surfaces * unit_.compute.loop);
+        inputs_.lit_surfaces * unit_.compute.loop);
     add(!replaced && plan.lighting_fragment, unit_.fragment.loop);
     add(!replaced && (plan.forward || (plan.layers && !layers_by_ids) || plan.transparent),
-        load_.lit_surfaces * unit_.fragment.loop);
+        inputs_.lit_surfaces * unit_.fragment.loop);
     add(plan.count_pairs || (replaced && settings::testsLights(plan.debug)), unit_.counting.loop);
-    for (const auto& [place, effect] : load_.effects) {
+    for (const auto& [place, effect] : inputs_.effects) {
         slowest = std::max(slowest, effect->loopCost(unit_));
     }
     return slowest;
@@ -310,7 +311,7 @@ uint64_t FrameCosts::lightsWithin(Seconds limit) const {
 
 double FrameCosts::pairsWithin(Seconds limit) const {
     const auto totalWith = [this](uint64_t lights_each) {
-        FrameLoad load = load_;
+        CostInputs load = inputs_;
         load.pairs = PairBound::uniform(lights_each);
         load.longest_loop = 0;
         return FrameCosts(unit_, std::move(load)).total();
@@ -319,7 +320,7 @@ double FrameCosts::pairsWithin(Seconds limit) const {
     constexpr double kAny = 1e9;
     const Seconds rest = totalWith(0);
     const Seconds room = std::max(limit - rest, limit / 2);
-    const double pairs = areaOf({{0, 0}, extentOf(load_.drawn)}) * kEach;
+    const double pairs = areaOf({{0, 0}, extentOf(inputs_.drawn)}) * kEach;
     const Seconds taken = totalWith(kEach) - rest;
     return pairs * (room.count() / std::max(taken.count(), room.count() / kAny));
 }

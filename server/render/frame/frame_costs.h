@@ -19,7 +19,7 @@
 namespace froxel::render {
 
 // The host's facts of a frame that was built.
-struct FrameLoad {
+struct CostInputs {
     // Lights that take more than others, wherever they are.
     struct CostlyLights {
         uint32_t count = 0;
@@ -34,9 +34,9 @@ struct FrameLoad {
     uint64_t longest_loop = 0; // of `pairs`, where it is more than a bound; 0: not known
     uint32_t directional_count = 0;
     std::vector<CostlyLights> costly_lights = {};
-    double lit_pixel = 0;          // seconds more to light a pixel, whatever its lights
-    double lit_surfaces = 1;       // most of a pixel of the forward shader (litSurfaces())
-    double overdraw = 1;           // of solid surfaces, in fragments per pixel
+    double lit_pixel = 0;    // seconds more to light a pixel, whatever its lights
+    double lit_surfaces = 1; // largest factor on a pixel of the forward shader (litSurfaces())
+    double overdraw = 1;     // of solid surfaces, in fragments per pixel
     uint32_t device_triangles = 0; // that the host does not cull
     uint64_t posed_vertices = 0;
     uint32_t resolve_count = 1; // dispatches over the picture where ids are resolved
@@ -69,10 +69,10 @@ checkAllLights(const UnitCosts& unit, const settings::ViewSettings& settings, Se
 
 class FrameCosts {
   public:
-    FrameCosts(const UnitCosts& unit, FrameLoad load) : unit_(unit), load_(std::move(load)) {}
+    FrameCosts(const UnitCosts& unit, CostInputs load) : unit_(unit), inputs_(std::move(load)) {}
 
     [[nodiscard]] Seconds pose() const {
-        return Seconds(static_cast<double>(load_.posed_vertices) * unit_.posed_vertex);
+        return Seconds(static_cast<double>(inputs_.posed_vertices) * unit_.posed_vertex);
     }
     // Of passes over the drawn picture.
     [[nodiscard]] RegionCost depthPrepass() const;
@@ -89,9 +89,9 @@ class FrameCosts {
     [[nodiscard]] RegionCost screen() const;
     [[nodiscard]] static RegionCost radianceToHost();
     [[nodiscard]] Seconds wires(uint64_t line_count) const {
-        const auto lines = static_cast<double>(std::max<uint64_t>(load_.wire_lines, 1));
+        const auto lines = static_cast<double>(std::max<uint64_t>(inputs_.wire_lines, 1));
         return Seconds(static_cast<double>(line_count) *
-                       (unit_.wire_line + load_.wire_px / lines * unit_.wire_pixel));
+                       (unit_.wire_line + inputs_.wire_px / lines * unit_.wire_pixel));
     }
 
     // For effects that loop over lights: shading all of them, without materials, seconds; and the
@@ -111,7 +111,7 @@ class FrameCosts {
     // How many lights one pixel may loop over.
     [[nodiscard]] uint64_t lightsWithin(Seconds limit) const;
 
-    [[nodiscard]] const FrameLoad& load() const { return load_; }
+    [[nodiscard]] const CostInputs& load() const { return inputs_; }
     [[nodiscard]] const UnitCosts& unit() const { return unit_; }
 
   private:
@@ -127,7 +127,7 @@ class FrameCosts {
     void addBlended(std::vector<PassEstimate>& passes) const;
 
     UnitCosts unit_;
-    FrameLoad load_;
+    CostInputs inputs_;
 };
 
 } // namespace froxel::render

@@ -58,17 +58,17 @@ struct GenericParts {
 [[nodiscard]] FrameFacts generalised(FrameFacts facts, const GenericParts& parts);
 
 struct FramePlan {
-    bool pose = false;      // vertices that bend are posed, once for all passes
-    bool pose_kept = false; // the view's stand so already
+    bool pose = false;        // vertices that bend are posed, once for all passes
+    bool pose_reused = false; // the posed vertices of the previous frame are valid
     bool depth_prepass = false;
-    bool count_samples = false;    // that pass the depth test where depth is drawn first
+    bool count_samples = false;    // an occlusion query counts fragments that pass the depth test
     bool forward = false;          // solid surfaces by the forward shader
     bool gbuffer = false;          // else by geometry pass and lighting pass
     bool visibility = false;       // solid surfaces by ids of triangles, culled on the device
-    bool compute_raster = false;   // rastered in compute
+    bool compute_raster = false;   // ids are rasterised in compute
     bool visibility_shade = false; // these are shaded at once, without a G-buffer
-    // What draws depth, ids and G-buffer is left out: the view's targets hold them (SurfacesDrawn).
-    bool kept = false;
+    // Depth, ids and G-buffer of the previous frame are valid (SurfacesDrawn): no pass draws them.
+    bool reused = false;
     bool spoil_scratch = false; // FrameInputs::spoil_scratch, of such a frame
     bool cull_meshlets = true;
     bool lighting_compute = false;

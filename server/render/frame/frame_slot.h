@@ -17,7 +17,7 @@
 #include "render/lists/pair_counter.h"
 #include "render/pipelines/pipelines.h"
 #include "render/pipelines/typed_store.h"
-#include "render/scene/dressing.h"
+#include "render/scene/material_set.h"
 #include "render/scene/mesh_poser.h"
 #include "render/scene/visibility_scene.h"
 
@@ -105,7 +105,7 @@ struct FrameSlot {
     gpu::Timestamps timestamps;
     FrameUpload upload;
     std::shared_ptr<ViewTargets> targets;
-    TypedStore kept; // what effects keep of the slot
+    TypedStore stored; // objects of effects that belong to the slot
     HeldTargets effect_targets;
     std::vector<ActiveEffect> effects;    // of the frame last recorded
     std::shared_ptr<PosedVertices> posed; // null: no mesh bends
@@ -116,7 +116,7 @@ struct FrameSlot {
     vk::raii::DescriptorSet frame_set{nullptr};
     vk::raii::DescriptorSet screen_set{nullptr};
     std::vector<vk::raii::BufferView> texel_views; // of the frame set's texel buffers
-    std::shared_ptr<Dressing> dressing;            // of the frame last recorded
+    std::shared_ptr<MaterialSet> material_set;     // of the frame last recorded
     std::unique_ptr<VisibilityFrame> visibility;   // null: no frame asked for it yet
     std::unique_ptr<PairCounter> pairs;            // likewise
     bool counts_pairs = false;                     // in the frame last recorded

@@ -45,7 +45,7 @@ std::string lightWords(const FrameFacts& facts, const FramePlan& plan, bool naiv
         return "light lists: a pixel loops over its cluster's lights";
     }
     return naive ? "naive: no lists, every fragment loops over all lights"
-                 : "lists do not pay or are not asked for: every pixel loops over all lights";
+                 : "no light lists: every pixel loops over all lights";
 }
 
 void addWords(Lines& lines, const PlannedEffect& effect, const settings::ViewSettings& settings) {
@@ -78,22 +78,21 @@ void addLightWords(Lines& lines,
         if (facts.areas) {
             lines.emplace_back(
                 settings.shading == settings::ShadingModel::kLambert
-                    ? "area lights: their rectangles are fetched and integrated"
+                    ? "area lights: rectangles are fetched and integrated"
                     : "area lights: rectangles and the highlight's table are fetched");
         }
         lines.emplace_back(facts.equal_radii ? "all radii equal: radius is a constant"
-                                             : "radii differ: each light brings its own");
+                                             : "radii differ: each light has its own");
         if ((flags & io::kLightCulled) != 0) {
-            lines.emplace_back("subgroups fetch lights together and skip what reaches none of "
-                               "their pixels");
+            lines.emplace_back(
+                "subgroups fetch lights together and skip lights that reach none of their pixels");
         } else if ((flags & io::kLightBatched) != 0) {
             lines.emplace_back("subgroups fetch lights together");
         }
     }
     addWordsAt(lines, settings, plan, EffectPlace::kLights);
     if ((flags & io::kLightEdges) != 0) {
-        lines.emplace_back("specular strength below 1: lights also add up what surfaces scatter "
-                           "at their edges");
+        lines.emplace_back("specular strength below 1: one more sum for light scattered at edges");
     }
     if (!facts.directional) {
         lines.emplace_back("no directional light: no loop over them");
@@ -103,7 +102,7 @@ void addLightWords(Lines& lines,
                         (plan.toon_bands ? "of the lit colour" : "of each light"));
     }
     if ((flags & io::kLightRim) != 0) {
-        lines.emplace_back("toon rim: what turns away from the eye scatters more");
+        lines.emplace_back("toon rim: surfaces that turn away from the eye scatter more light");
     }
     if (settings.shading == settings::ShadingModel::kLambert) {
         lines.emplace_back("lambert: no specular part, no roughness textures");
@@ -117,12 +116,12 @@ void addSolidWords(Lines& lines,
                    const FrameFacts& facts,
                    const FramePlan& plan) {
     if (plan.pose) {
-        lines.emplace_back("skins or morph targets: their vertices are posed in compute");
+        lines.emplace_back("skins or morph targets: vertices are posed in compute");
     }
     if (plan.visibility) {
         lines.push_back(std::string("visibility: the device ") +
-                        (plan.cull_meshlets ? "culls meshlets and rasters triangle ids"
-                                            : "rasters triangle ids") +
+                        (plan.cull_meshlets ? "culls meshlets and rasterises triangle ids"
+                                            : "rasterises triangle ids") +
                         (plan.compute_raster ? " in compute" : "") +
                         (plan.cull_meshlets ? "" : ", nothing culled"));
     }
@@ -135,7 +134,7 @@ void addSolidWords(Lines& lines,
                              : "no metalness, occlusion, emission or unlit: G-buffer of ") +
                         bytes + " bytes a pixel");
         if (specular) {
-            lines.emplace_back("ior, specular or glossiness: a word of it is in the G-buffer's "
+            lines.emplace_back("ior, specular or glossiness: one more word in the G-buffer's "
                                "second target, which only the rasteriser writes");
         }
     } else {
@@ -144,35 +143,31 @@ void addSolidWords(Lines& lines,
                                : "no G-buffer: surfaces are shaded at once");
     }
     if (plan.layers) {
-        lines.emplace_back(
-            plan.visibility ? "layers: materials with coats or the like are shaded once more by "
-                              "their ids, over the lit picture; the G-buffer has no room for them"
-                            : "layers: materials with coats or the like are drawn once more, over "
-                              "the lit picture by the forward shader; the G-buffer has no room for "
-                              "them");
+        lines.emplace_back(plan.visibility
+                               ? "layers: a compute pass shades materials with layers again over "
+                                 "the lit picture, because the G-buffer has no room for them"
+                               : "layers: the forward shader draws materials with layers again "
+                                 "over the lit picture, because the G-buffer has no room for them");
     }
     if (plan.depth_prepass) {
         lines.emplace_back("depth prepass: each pixel is shaded once");
     } else if (!plan.visibility) {
-        lines.emplace_back(settings.renderer == settings::Renderer::kNaive
-                               ? "naive: no depth prepass"
-                           : facts.overdraw_unknown
-                               ? "no depth prepass: how often surfaces overlap is being measured"
-                               : "no depth prepass: it would cost more than it spares");
+        lines.emplace_back(
+            settings.renderer == settings::Renderer::kNaive ? "naive: no depth prepass"
+            : facts.overdraw_unknown ? "no depth prepass: overdraw is being measured"
+                                     : "no depth prepass: it would cost more than it saves");
     }
 }
 
 // Of what is done to the picture once it is lit.
 void addEffectWords(Lines& lines, const settings::ViewSettings& settings, const FramePlan& plan) {
     if (plan.outline) {
-        lines.emplace_back(
-            "outline: edges of depth and normals are darkened, in a pass of its own");
+        lines.emplace_back("outline: a separate pass darkens edges of depth and normals");
     }
     addWordsAt(lines, settings, plan, EffectPlace::kSolid);
     addWordsAt(lines, settings, plan, EffectPlace::kPicture);
     if (plan.samples) {
-        lines.emplace_back(
-            "ssaa4: four samples a pixel, drawn at twice the sides, each tone mapped");
+        lines.emplace_back("ssaa4: four samples for each pixel, tone-mapped one by one");
     }
     addWordsAt(lines, settings, plan, EffectPlace::kPixels);
 }
@@ -182,15 +177,15 @@ std::string transparentWords(const FramePlan& plan) {
         return "no transparent surface in view: no sort, no blend pass";
     }
     const std::string over =
-        plan.over_unlit ? "; over unlit surfaces as the display shows them, in a pass of its own"
+        plan.over_unlit ? "; a separate pass blends them over unlit surfaces in display colours"
                         : "";
     switch (plan.transparency) {
     case settings::Transparency::kWeighted:
-        return "transparent surfaces in view: summed at once by weights of distance, approximate" +
+        return "transparent surfaces in view: summed at once, weighted by distance, approximate" +
                over;
     case settings::Transparency::kPeeled:
         return "transparent surfaces in view: up to " + std::to_string(plan.peel_layers) +
-               " layers peeled from the eye, each pixel's next one shaded alone" + over;
+               " layers peeled from the eye, one layer of each pixel at a time" + over;
     case settings::Transparency::kSorted:
         break;
     }
@@ -199,20 +194,20 @@ std::string transparentWords(const FramePlan& plan) {
 
 std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
     if (!plan.tonemap) {
-        return plan.toon_pass ? "the toon pass maps tones: no pass for it"
-                              : "lighting maps tones: no pass for it";
+        return plan.toon_pass ? "tone mapping in the toon pass: no separate pass"
+                              : "tone mapping in the lighting pass: no separate pass";
     }
     if (facts.transparent_visible) {
-        return "tone map in a pass of its own, after blending";
+        return "tone mapping in a separate pass, after blending";
     }
     if (settings::isOverlay(plan.debug)) {
-        return "tone map in a pass of its own, after the debug view's lines";
+        return "tone mapping in a separate pass, after the debug view's lines";
     }
     if (plan.samples || plan.outline || plan.layers || plan.hasEffect(EffectPlace::kSolid) ||
         plan.hasEffect(EffectPlace::kPicture)) {
-        return "tone map in a pass of its own, after those over the lit picture";
+        return "tone mapping in a separate pass, after the passes over the lit picture";
     }
-    return "tone map in a pass of its own, after a fragment stage";
+    return "tone mapping in a separate pass, after a fragment stage";
 }
 
 } // namespace
@@ -233,13 +228,12 @@ std::vector<std::string> sceneWords(const SceneNeeds& needs) {
         materials("unlit shading", io::kMaterialUnlit, "no unlit materials"),
         materials("ior, specular or glossiness", io::kMaterialSpecular,
                   "no ior, specular or glossiness: dielectrics reflect 4 % head-on"),
-        materials("clear coats", io::kMaterialCoat,
-                  "no clear coats: no light is added up a second time"),
-        materials("sheen", io::kMaterialSheen, "no sheen: no light is added up by fibres"),
+        materials("clear coats", io::kMaterialCoat, "no clear coats: lights are added up once"),
+        materials("sheen", io::kMaterialSheen, "no sheen: no sum for fibres"),
         materials("anisotropy", io::kMaterialAnisotropy, "no anisotropy: highlights are round"),
         materials("iridescence", io::kMaterialFilm, "no iridescence: no thin films"),
         materials("diffuse transmission", io::kMaterialDiffuseTransmission,
-                  "no diffuse transmission: no light is added up from behind"),
+                  "no diffuse transmission: no light from behind"),
         materials("both sides drawn", io::kMaterialDoubleSided,
                   "no double-sided materials: back faces are culled"),
         materials("texture transforms or a second set", io::kMaterialUvTransform,
@@ -260,7 +254,7 @@ std::vector<std::string>
 frameWords(const settings::ViewSettings& settings, const FrameFacts& facts, const FramePlan& plan) {
     if (settings::replacesPicture(plan.debug)) {
         Lines lines = {"debug view " + std::string(settings::nameOf(plan.debug)) +
-                       " in the picture's place: solid surfaces only, no lighting"};
+                       " replaces the picture: opaque surfaces only, no lighting"};
         if (plan.debug != settings::DebugView::kOverdraw) {
             addSolidWords(lines, settings, facts, plan);
         }
@@ -276,14 +270,14 @@ frameWords(const settings::ViewSettings& settings, const FrameFacts& facts, cons
     addEffectWords(lines, settings, plan);
     lines.push_back(toneMapWords(facts, plan));
     if (plan.count_pairs) {
-        lines.emplace_back("light-pixel pairs are counted, in a pass of its own");
+        lines.emplace_back("a separate pass counts (light, pixel) pairs");
     }
     if (settings::isOverlay(plan.debug)) {
         lines.push_back("debug view " + std::string(settings::nameOf(plan.debug)) +
-                        ": lines over the picture, in a pass of their own");
+                        ": a separate pass draws lines over the picture");
     }
     if (!plan.radiance) {
-        lines.emplace_back("nobody reads linear radiance: no target for it");
+        lines.emplace_back("no pass reads linear radiance: no target for it");
     }
     return lines;
 }

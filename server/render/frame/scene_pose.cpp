@@ -9,11 +9,11 @@ namespace froxel::render {
 
 static_assert(sizeof(io::PoseJoint) == sizeof(motion::JointMatrix));
 
-ScenePose::ScenePose(SceneResources& scene) : scene_(scene), dressing_(scene.dressing(0)) {
+ScenePose::ScenePose(SceneResources& scene) : scene_(scene), material_set_(scene.material_set(0)) {
     if (scene.motion) {
         moved_ = std::unique_ptr<Moved>(new Moved{.playing = {},
                                                   .moment = {},
-                                                  .items = dressing_->items,
+                                                  .items = material_set_->items,
                                                   .bounds_world = scene.bounds_world,
                                                   .light_rig = scene.light_rig,
                                                   .joints = {},
@@ -38,7 +38,7 @@ void ScenePose::placeItems() {
     for (size_t i = 0; i < moved_->items.size(); ++i) {
         DrawItem& item = moved_->items[i];
         item.mirrored = glm::determinant(glm::dmat3(moved_->moment.instances[item.instance])) < 0;
-        moved_->winds_as_at_start &= item.mirrored == dressing_->items[i].mirrored;
+        moved_->winds_as_at_start &= item.mirrored == material_set_->items[i].mirrored;
         if (item.bends) {
             const BoundsD3& box = moved_->moment.deformed[deformed_of_instance[item.instance]];
             item.primitive.center = glm::vec3(box.center());
@@ -54,9 +54,9 @@ void ScenePose::wear(uint32_t material_variant) {
         return;
     }
     material_variant_ = material_variant;
-    dressing_ = scene_.dressing(material_variant);
+    material_set_ = scene_.material_set(material_variant);
     if (moved_) {
-        moved_->items = dressing_->items;
+        moved_->items = material_set_->items;
         placeItems();
     }
     ++number_;

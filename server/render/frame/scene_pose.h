@@ -18,10 +18,10 @@ class ScenePose {
   public:
     explicit ScenePose(SceneResources& scene);
 
-    // Shows the scene with that material variant's materials; see SceneResources::dressing(). Spans
-    // handed out before end.
+    // Shows the scene with that material variant's materials; see SceneResources::material_set().
+    // Spans handed out before end.
     void wear(uint32_t material_variant);
-    [[nodiscard]] const std::shared_ptr<Dressing>& dressing() const { return dressing_; }
+    [[nodiscard]] const std::shared_ptr<MaterialSet>& material_set() const { return material_set_; }
 
     // Stands where the clips have the scene then: a pure function of what plays. None: what
     // Motion::played says, at time_s. Spans handed out before end.
@@ -31,7 +31,7 @@ class ScenePose {
         return moved_ ? moved_->moment.instances : scene_.instances;
     }
     [[nodiscard]] std::span<const DrawItem> items() const {
-        return moved_ ? moved_->items : dressing_->items;
+        return moved_ ? moved_->items : material_set_->items;
     }
     [[nodiscard]] const BoundsD3& boundsWorld() const {
         return moved_ ? moved_->bounds_world : scene_.bounds_world;
@@ -39,8 +39,8 @@ class ScenePose {
     [[nodiscard]] const light::LightRig& lightRig() const {
         return moved_ ? moved_->light_rig : scene_.light_rig;
     }
-    // Whether all items are mirrored as Dressing::items are: the visibility passes' groups are cut
-    // by that.
+    // Whether all items are mirrored as MaterialSet::items are: the visibility passes' groups are
+    // cut by that.
     [[nodiscard]] bool windsAsAtStart() const { return !moved_ || moved_->winds_as_at_start; }
 
     // What MeshPoser's vertices follow.
@@ -70,7 +70,7 @@ class ScenePose {
 
     SceneResources& scene_;
     uint32_t material_variant_ = 0;
-    std::shared_ptr<Dressing> dressing_;
+    std::shared_ptr<MaterialSet> material_set_;
     std::unique_ptr<Moved> moved_; // null: the scene rests
     uint64_t number_ = 0;
 };

@@ -44,8 +44,8 @@ class DeviceResources {
     // What views that ask for it share, such as pipelines: made from this at the first call. Throws
     // vk::SystemError.
     template <class T>
-    [[nodiscard]] T& kept() {
-        return kept_.findOrMake<T>(*this);
+    [[nodiscard]] T& stored() {
+        return stored_.findOrMake<T>(*this);
     }
     // All made at the first call. Throw vk::SystemError.
     [[nodiscard]] DebugPass& debug();
@@ -69,7 +69,7 @@ class DeviceResources {
     std::unique_ptr<PairPipelines> pairs_;
     std::unique_ptr<gpu::MemoryArena> ltc_arena_;
     gpu::Buffer ltc_table_;
-    TypedStore kept_;
+    TypedStore stored_;
 };
 
 } // namespace froxel::render

@@ -25,8 +25,8 @@ Result<void> fits(uint64_t bytes,
         return {};
     }
     return Error{ErrorCode::kCapacity,
-                 fmt::format("{} takes {} MiB of memory; scenes and other sessions take {} of "
-                             "the {}'s {}: ask for a smaller picture, or try again later",
+                 fmt::format("{} takes {} MiB of memory; scenes and other sessions use {} of the "
+                             "{}'s {}; use a smaller picture, or try again later",
                              picture, needMib(bytes), needMib(others), whose, limitMib(limit)),
                  others < limit ? static_cast<double>(bytes) / static_cast<double>(limit - others)
                                 : 0};
@@ -51,11 +51,11 @@ Result<void> SceneMemory::take(uint64_t bytes, const std::string& what) {
 Result<void> MemoryShare::take(const MemoryTaken& need, const std::string& picture) {
     const MemoryLimits& limits = budget_.limits_;
     if (need.total() > limits.session_bytes) {
-        return Error{ErrorCode::kCapacity,
-                     fmt::format("{} takes {} MiB of memory; a session has {} here: ask for a "
-                                 "smaller picture",
-                                 picture, needMib(need.total()), limitMib(limits.session_bytes)),
-                     static_cast<double>(need.total()) / static_cast<double>(limits.session_bytes)};
+        return Error{
+            ErrorCode::kCapacity,
+            fmt::format("{} takes {} MiB of memory; a session may have {}; use a smaller picture",
+                        picture, needMib(need.total()), limitMib(limits.session_bytes)),
+            static_cast<double>(need.total()) / static_cast<double>(limits.session_bytes)};
     }
     const uint64_t others =
         budget_.scene_bytes_ + budget_.views_.device_bytes - taken_.device_bytes;

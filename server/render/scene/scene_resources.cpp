@@ -126,8 +126,8 @@ SceneNeeds drawableNeeds(const gpu::Device& device, const scene::Scene& scene) {
         std::ranges::none_of(all.material_flags, layered)) {
         return all;
     }
-    spdlog::warn("event=layers_left_out reason=\"layers are drawn from {} sampled descriptors in a "
-                 "shader, {} of them with samplers; this device allows {} and {}\"",
+    spdlog::warn("event=layers_left_out reason=\"layers need {} sampled descriptors in a shader, "
+                 "{} of them with samplers; this device allows {} and {}\"",
                  kPassTextures + io::kMaterialSlots, io::kMaterialSlots,
                  device.traits().most_textures, device.traits().most_samplers);
     return findNeeds(scene, false);
@@ -155,7 +155,7 @@ SceneResources::SceneResources(DeviceResources& shared_in,
     meshlets = std::move(geometry.meshlets);
     uploadGeometry(std::move(geometry), uploader);
     uploadMaterials(scene, uploader);
-    undressed_ = std::make_shared<Dressing>(*this, std::move(items));
+    undressed_ = std::make_shared<MaterialSet>(*this, std::move(items));
     spdlog::info("event=scene_packed scene={} items={} meshlets={} images={} device_bytes={}",
                  logValue(scene.name), undressed_->items.size(), meshlets.size(),
                  textures_->imageCount(), arena.allocatedBytes() + texture_arena.allocatedBytes());
@@ -263,13 +263,13 @@ void SceneResources::keepVariantMaterials(const scene::Scene& scene,
     }
 }
 
-std::shared_ptr<Dressing> SceneResources::dressing(uint32_t material_variant) {
+std::shared_ptr<MaterialSet> SceneResources::material_set(uint32_t material_variant) {
     if (material_variant == 0) {
         return undressed_;
     }
-    std::weak_ptr<Dressing>& known = dressings_[material_variant];
-    if (auto dressing = known.lock()) {
-        return dressing;
+    std::weak_ptr<MaterialSet>& known = known_material_sets_[material_variant];
+    if (auto material_set = known.lock()) {
+        return material_set;
     }
     std::vector<DrawItem> items = undressed_->items;
     for (DrawItem& item : items) {
@@ -280,9 +280,9 @@ std::shared_ptr<Dressing> SceneResources::dressing(uint32_t material_variant) {
             item.material_flags = itemFlags(item.primitive, needs);
         }
     }
-    auto dressing = std::make_shared<Dressing>(*this, std::move(items));
-    known = dressing;
-    return dressing;
+    auto material_set = std::make_shared<MaterialSet>(*this, std::move(items));
+    known = material_set;
+    return material_set;
 }
 
 VisibilityPipelines& SceneResources::visibilityPipelines() const {

@@ -5,8 +5,8 @@
 #include "light/light_rig.h"
 #include "render/pipelines/typed_store.h"
 #include "render/scene/device_resources.h"
-#include "render/scene/dressing.h"
 #include "render/scene/geometry_pack.h"
+#include "render/scene/material_set.h"
 #include "render/scene/scene_motion.h"
 #include "render/scene/scene_needs.h"
 #include "render/scene/texture_store.h"
@@ -65,12 +65,12 @@ class SceneResources {
     // What of this scene views that ask for it share: made from this at the first call. Throws
     // vk::SystemError.
     template <class T>
-    [[nodiscard]] T& kept() {
-        return kept_.findOrMake<T>(*this);
+    [[nodiscard]] T& stored() {
+        return stored_.findOrMake<T>(*this);
     }
     // That of a material variant, by its number (settings::ViewSettings). All who hold it share it;
     // with the last of them it goes, but for that of no variant.
-    [[nodiscard]] std::shared_ptr<Dressing> dressing(uint32_t material_variant);
+    [[nodiscard]] std::shared_ptr<MaterialSet> material_set(uint32_t material_variant);
     // Throws vk::SystemError.
     [[nodiscard]] VisibilityPipelines& visibilityPipelines() const;
 
@@ -91,11 +91,11 @@ class SceneResources {
     std::unique_ptr<TextureStore> textures_;
     vk::raii::DescriptorPool material_pool_{nullptr};
     std::vector<vk::raii::DescriptorSet> material_sets_;
-    std::shared_ptr<Dressing> undressed_; // of no variant
-    std::map<uint32_t, std::weak_ptr<Dressing>> dressings_;
+    std::shared_ptr<MaterialSet> undressed_; // of no variant
+    std::map<uint32_t, std::weak_ptr<MaterialSet>> known_material_sets_;
     // Of primitives that have any, by PackedPrimitive::first_index, which no two share.
     std::map<uint32_t, std::vector<scene::VariantMaterial>> variant_materials_;
-    TypedStore kept_;
+    TypedStore stored_;
 };
 
 } // namespace froxel::render

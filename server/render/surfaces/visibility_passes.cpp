@@ -29,7 +29,7 @@ void shade(const FrameContext& frame,
 }
 
 uint32_t keptFlag(const FrameContext& frame) {
-    return frame.plan.kept ? io::kResolveKept : 0U;
+    return frame.plan.reused ? io::kResolveReused : 0U;
 }
 
 // A pipeline over every pixel: once with all textures, or once for each material. find() gives it.
@@ -153,7 +153,7 @@ void recordVisibilityShade(const FrameContext& frame, const vk::Rect2D& region) 
 
 void recordVisibilityLayers(const FrameContext& frame, const vk::Rect2D& region) {
     // Depths are those of planes since the G-buffer was filled.
-    resolve(frame, region, "layers", 0, io::kResolveLayers | io::kResolveKept, [&] {
+    resolve(frame, region, "layers", 0, io::kResolveLayers | io::kResolveReused, [&] {
         return frame.visibility->pipelines.shade({frame.visibility->material_flags,
                                                   frame.plan.lighting_light_flags,
                                                   io::kOutputRadiance});

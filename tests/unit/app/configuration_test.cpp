@@ -151,7 +151,7 @@ TEST_F(ConfigurationTest, ValueOfSeveralLines_IsRefusedInOne) {
 
 TEST_F(ConfigurationTest, UnknownKey_IsRefused) {
     EXPECT_THAT(refusal({"--config", file("max_sessions = 3\n")}),
-                AllOf(HasSubstr(path_), HasSubstr("'max_sessions' is no option")));
+                AllOf(HasSubstr(path_), HasSubstr("'max_sessions' is not an option")));
     EXPECT_THAT(refusal({"--config", file("config = 'b.toml'\n")}), HasSubstr("'config'"));
     EXPECT_THAT(refusal({"--config", file("[serve]\nport = 1\n")}), HasSubstr("serve"));
 }

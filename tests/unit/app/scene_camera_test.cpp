@@ -76,7 +76,7 @@ TEST(FindCamera, UnknownName_RefusedWithTheNames) {
     ASSERT_TRUE(camera.has_error());
     EXPECT_EQ(camera.error().code, ErrorCode::kInvalidArgument);
     EXPECT_EQ(camera.error().message,
-              "--camera: 'crypt' is no camera of this scene; it has nave, apse");
+              "--camera: 'crypt' is not a camera of this scene; it has nave, apse");
 }
 
 TEST(FindCamera, Numbers_AreTaken) {

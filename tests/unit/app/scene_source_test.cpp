@@ -56,9 +56,9 @@ TEST_F(SceneSource, UnknownAnimation_IsRefusedByName) {
         EXPECT_EQ(played(unknown), std::nullopt) << unknown;
     }
     EXPECT_EQ(loadScene(file_, {.animation = "run"}).error().message,
-              "--animation: 'run' is no animation of this scene; it has 1 walk, 2 (nameless)");
+              "--animation: 'run' names no animation of this scene; it has 1 walk, 2 (nameless)");
     EXPECT_EQ(loadScene("builtin", {.animation = "run"}).error().message,
-              "--animation: 'run' is no animation of this scene; it has none");
+              "--animation: 'run' names no animation of this scene; it has none");
     EXPECT_TRUE(loadScene("builtin", {.animation = "none"}));
 }
 
@@ -71,10 +71,10 @@ TEST_F(SceneSource, MaterialVariant_IsChosenByNameOrNumber) {
     EXPECT_EQ(shown("2"), 2U);
     EXPECT_EQ(shown("none"), 0U);
     EXPECT_EQ(loadScene(file_, {.material_variant = "3"}).error().message,
-              "--material-variant: '3' is no material variant of this scene; it has 1 dusk, 2 "
+              "--material-variant: '3' names no material variant of this scene; it has 1 dusk, 2 "
               "(nameless)");
     EXPECT_EQ(loadScene("builtin", {.material_variant = "1"}).error().message,
-              "--material-variant: '1' is no material variant of this scene; it has none");
+              "--material-variant: '1' names no material variant of this scene; it has none");
 }
 
 // An empty scene is no room: it has no seeded lights.

@@ -22,11 +22,11 @@ namespace {
 
 constexpr const char* kIntroduction = R"(# Settings
 
-For people who look for one number, switch or name among all. This page is made from the server's own table: what it
-says is what the options, the page, the protocol and the reports take. The option of a setting has its
-name with dashes: `--fog-density`. A switch that is usually on has an option that turns it off: `--no-animate`.
+For people who look up one setting. A test generates this page from the server's own table, so it matches the options,
+the page, the protocol and the reports. The option of a setting has its name with dashes, such as `--fog-density`. A
+switch that is on by default has an option that turns it off, such as `--no-animate`.
 
-| setting | on the page | of | usual | what it does | costs |
+| setting | label | values | default | meaning | cost |
 |---|---|---|---|---|---|
 )";
 

@@ -224,7 +224,7 @@ TEST(CompareReports, SettingsThatOneDoesNotTell_AreAWarningNotAnotherRow) {
     EXPECT_EQ(comparison.rows.size(), newer["sweeps"][0]["rows"].size());
     ASSERT_EQ(comparison.warnings.size(), 1U);
     EXPECT_EQ(comparison.warnings[0],
-              "told by one alone, and at its default: debug_view, lights.speed");
+              "only in one result, with its default: debug_view, lights.speed");
     auto other = result(100);
     for (auto& row : other.sweeps[0].sweep.rows) {
         row.settings.lights.box = BoundsD3{{0, 0, 0}, {1, 1, 1}};

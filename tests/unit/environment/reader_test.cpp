@@ -159,10 +159,10 @@ TEST(Exr, OtherLayouts_AreRefused) {
     expectRefused(exrFile({.width = 3, .height = 2}, kRgb), ErrorCode::kInvalidArgument,
                   "has 3x2 pixels; right is");
     expectRefused(exrFile({}, {{"R"}, {"G"}, {"Z"}}), ErrorCode::kUnsupported,
-                  "channels G, R, Z; right are R, G and B");
+                  "channels G, R, Z; expected R, G and B");
     expectRefused(exrFile({}, {{"R", Imf::UINT}, {"G"}, {"B"}}), ErrorCode::kUnsupported,
                   "channel R of integers");
-    expectRefused(exrFile({.parts = 2}, kRgb), ErrorCode::kUnsupported, "2 parts; right is one");
+    expectRefused(exrFile({.parts = 2}, kRgb), ErrorCode::kUnsupported, "2 parts; expected one");
     expectRefused(exrFile({.cropped = true}, kRgb), ErrorCode::kUnsupported, "data window");
     expectRefused(exrFile({.width = 8194, .height = 4097}, {{"Y"}}), ErrorCode::kCapacity,
                   "8194x4097");
@@ -190,7 +190,7 @@ TEST(Reader, ValuesThatNoLightHas_AreReplacedAndTold) {
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_THAT(read->image.rgb, ElementsAre(0, 0, 65504, 0, 0.5F, 65504));
     EXPECT_THAT(read->warnings,
-                ElementsAre("sky has 2 of 6 values that are no numbers, read as 0",
+                ElementsAre("sky has 2 of 6 values that are not numbers, read as 0",
                             "sky has 1 of 6 values below 0, read as 0",
                             "sky has 2 of 6 values that are infinite, read as 65504"));
 }

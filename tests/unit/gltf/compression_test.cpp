@@ -164,7 +164,7 @@ TEST(Meshopt, IndicesOutOfRange_AreRefused) {
     const int indices =
         addCompressed(file, encodeTriangles({0, 1, 2, 2, 1, 7}, 8), 6, 2, "TRIANGLES");
     file.primitive()["indices"] = file.addAccessorOf(indices, 5123, 6, 1);
-    EXPECT_THAT(failure(file.load()), HasSubstr("is 7; right is below 4"));
+    EXPECT_THAT(failure(file.load()), HasSubstr("is 7; expected below 4"));
 }
 
 TEST(Meshopt, BadParameters_AreRefused) {
@@ -284,7 +284,7 @@ TEST_P(Draco, CountsUnlikeTheAccessors_TheStreamWins_WithAWarning) {
         EXPECT_EQ(scene.meshes.at(0).primitives.at(0).colors.size(), 4U);
         ASSERT_EQ(scene.warnings.size(), 1U);
         EXPECT_THAT(scene.warnings[0].message,
-                    HasSubstr("but 4 and 6 in its Draco stream, which is what is drawn"));
+                    HasSubstr("but 4 and 6 in its Draco stream, which is drawn"));
     };
     SceneFile file = dracoFile(stream);
     file.json["accessors"][4]["count"] = 9;
@@ -303,7 +303,7 @@ TEST_P(Draco, AttributeBesideTheStream_OfTheAccessorsCount_IsLeftOut) {
     const scene::Scene scene = loaded(file.load());
     ASSERT_EQ(scene.warnings.size(), 2U);
     EXPECT_THAT(scene.warnings[1].message + scene.warnings[0].message,
-                HasSubstr("NORMAL has 3 elements; right is 4"));
+                HasSubstr("NORMAL has 3 elements; expected 4"));
 }
 
 // Whatever a byte becomes: a scene with indices in range, or one line.

@@ -71,7 +71,7 @@ TYPED_TEST(IndexType, OutOfRange_IsRefused) {
     SceneFile file;
     file.primitive()["indices"] = file.addAccessor<TypeParam>({2, 3, 1}, 1);
     EXPECT_THAT(failure(file.load()),
-                HasSubstr("mesh 0 primitive 0 index 1 is 3; right is below 3"));
+                HasSubstr("mesh 0 primitive 0 index 1 is 3; expected below 3"));
 }
 
 template <class T>
@@ -212,7 +212,7 @@ TEST(Geometry, IncompleteTriangle_IsIgnoredWithAWarning) {
     SceneFile file = square();
     const scene::Scene scene = loaded(file.load());
     EXPECT_THAT(scene.meshes.at(0).primitives.at(0).indices, ElementsAre(0, 1, 2));
-    EXPECT_THAT(test::warningLines(scene), ElementsAre(HasSubstr("no multiple of 3")));
+    EXPECT_THAT(test::warningLines(scene), ElementsAre(HasSubstr("not a multiple of 3")));
 }
 
 TEST(Geometry, MissingNormals_AreFlatAndUnshared) {
@@ -331,15 +331,15 @@ TEST(Geometry, UnequalCounts_AreNamed) {
     addNormals(file, 2);
     const scene::Scene scene = loaded(file.load());
     ASSERT_EQ(scene.warnings.size(), 1U);
-    EXPECT_EQ(scene.warnings[0].message,
-              "mesh 0 primitive 0 NORMAL has 2 elements; right is 3, as POSITION has; it is left "
-              "out");
+    EXPECT_EQ(
+        scene.warnings[0].message,
+        "mesh 0 primitive 0 NORMAL has 2 elements; expected 3, as POSITION has; it is left out");
 }
 
 TEST(Geometry, WrongType_IsRefused) {
     SceneFile file;
     file.attributes()["POSITION"] = file.addAccessor<float>({0, 0, 1, 0, 0, 1}, 2);
-    EXPECT_THAT(failure(file.load()), HasSubstr("with 2 components; right is 3"));
+    EXPECT_THAT(failure(file.load()), HasSubstr("with 2 components; expected 3"));
 }
 
 } // namespace

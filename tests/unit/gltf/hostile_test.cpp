@@ -150,7 +150,7 @@ TEST(Files, GitLfsPointer_IsNamedAsOne) {
     folder.write("mesh.bin", pointer);
     SceneFile file;
     file.json["buffers"][0]["uri"] = "mesh.bin";
-    EXPECT_THAT(failure(file.loadIn(folder)), HasSubstr("which git lfs pull fetches"));
+    EXPECT_THAT(failure(file.loadIn(folder)), HasSubstr("git lfs pull fetches it"));
 }
 
 TEST(Buffers, Missing_IsRefused) {
@@ -186,9 +186,10 @@ TEST(Views, OutOfTheirBuffer_AreRefused) {
 TEST(Views, HugeNumbers_AreRefusedByTheirPlace) {
     EXPECT_THAT(refusedView("byteOffset", std::numeric_limits<uint64_t>::max()),
                 HasSubstr("/bufferViews/0/byteOffset is 18446744073709551615"));
-    EXPECT_THAT(refusedView("byteLength", 1ULL << 32U),
-                HasSubstr("/bufferViews/0/byteLength is 4294967296; right is an integer from 0 to "
-                          "4294967295"));
+    EXPECT_THAT(
+        refusedView("byteLength", 1ULL << 32U),
+        HasSubstr(
+            "/bufferViews/0/byteLength is 4294967296; expected an integer from 0 to 4294967295"));
     EXPECT_THAT(refusedView("byteOffset", -4), HasSubstr("/bufferViews/0/byteOffset is -4"));
     EXPECT_THAT(refusedView("byteOffset", 1.5), HasSubstr("/bufferViews/0/byteOffset is 1.5"));
     EXPECT_THAT(refusedView("buffer", 1ULL << 32U), HasSubstr("/bufferViews/0/buffer"));
@@ -222,7 +223,7 @@ TEST(Accessors, BadTypes_AreRefused) {
     EXPECT_THAT(refusedAccessor("componentType", 5130), HasSubstr("componentType 5130"));
     EXPECT_THAT(refusedAccessor("componentType", 1), HasSubstr("componentType"));
     EXPECT_THAT(refusedAccessor("type", "MAT3"), HasSubstr("is a MAT2 or MAT3"));
-    EXPECT_THAT(refusedAccessor("type", "MAT4"), HasSubstr("with 16 components; right is 3"));
+    EXPECT_THAT(refusedAccessor("type", "MAT4"), HasSubstr("with 16 components; expected 3"));
     EXPECT_THAT(refusedAccessor("type", "VEC9"), HasSubstr("VEC9"));
 }
 
@@ -267,7 +268,7 @@ std::string refusedSparse(const Json& patch) {
 }
 
 TEST(Sparse, BadValues_AreRefused) {
-    EXPECT_THAT(refusedSparse({{"count", 2}}), HasSubstr("sparse index 1 is 7; right is below 3"));
+    EXPECT_THAT(refusedSparse({{"count", 2}}), HasSubstr("sparse index 1 is 7; expected below 3"));
     EXPECT_THAT(refusedSparse({{"count", 4}}), HasSubstr("substitutes 4 elements of 3"));
     EXPECT_THAT(refusedSparse({{"indices", {{"componentType", 5126}}}}),
                 HasSubstr("sparse indices of componentType 5126"));
@@ -278,7 +279,7 @@ TEST(Sparse, BadValues_AreRefused) {
     EXPECT_THAT(refusedSparse({{"values", {{"bufferView", 12}}}}), HasSubstr("bufferView 12"));
     EXPECT_THAT(refusedSparse({{"values", {{"byteOffset", -1}}}}), HasSubstr("byteOffset is -1"));
     EXPECT_THAT(refusedSparse({{"values", {{"byteOffset", 3'000'000'000}}}}),
-                HasSubstr("sparse byteOffset of 3000000000; right is at most 2147483647"));
+                HasSubstr("sparse byteOffset of 3000000000; expected at most 2147483647"));
     EXPECT_THAT(refusedSparse({{"indices", nullptr}}), HasSubstr("indices"));
 }
 
@@ -311,18 +312,18 @@ TEST(Document, WrongTypesOutsideGeometry_AreLeftOutWithTheirPlace) {
     for (const auto& [pointer, value, words] :
          {std::tuple<const char*, Json, const char*>(
               "/nodes/0/translation", {1, nullptr, 2},
-              "TYPE_MISMATCH at /nodes/0/translation: /nodes/0/translation is null at '1'; right "
-              "is an array of 3 numbers"),
-          {"/nodes/0/rotation", {0, 0, 1}, "/nodes/0/rotation is an array of 3; right is"},
-          {"/nodes/0/name", 5, "/nodes/0/name is 5; right is a string; it is left out"},
+              "TYPE_MISMATCH at /nodes/0/translation: /nodes/0/translation is null at '1'; "
+              "expected an array of 3 numbers"),
+          {"/nodes/0/rotation", {0, 0, 1}, "/nodes/0/rotation is an array of 3; expected"},
+          {"/nodes/0/name", 5, "/nodes/0/name is 5; expected a string; it is left out"},
           {"/nodes/0/camera", -1, "/nodes/0/camera is -1"},
           {"/materials", "none", "/materials is \"none\""},
           {"/materials/0", 5,
-           "/materials is 5 at '0'; right is an array of objects; that is taken"},
+           "/materials is 5 at '0'; expected an array of objects; that is taken"},
           {"/materials/0/doubleSided", 1, "/materials/0/doubleSided is 1"},
           {"/materials/0/emissiveFactor", {1, 1e39, 0}, "emissiveFactor is 1e+39 at '1'"},
           {"/materials/0/pbrMetallicRoughness", Json::array(),
-           "is an array of 0; right is an object"},
+           "is an array of 0; expected an object"},
           {"/samplers", Json::object(), "/samplers is an object"},
           {"/textures", 3, "/textures is 3"},
           {"/images", 3, "/images is 3"},
@@ -357,8 +358,8 @@ TEST(Document, BufferThatNothingUses_IsNothing) {
 }
 
 TEST(Document, NotGltf_IsRefused) {
-    EXPECT_THAT(failure(loadText("")), HasSubstr("no glTF 2.0 file"));
-    EXPECT_THAT(failure(loadText("hello")), HasSubstr("no glTF 2.0 file"));
+    EXPECT_THAT(failure(loadText("")), HasSubstr("not a glTF 2.0 file"));
+    EXPECT_THAT(failure(loadText("hello")), HasSubstr("not a glTF 2.0 file"));
     EXPECT_THAT(failure(loadText("[1]")), HasSubstr("not an object"));
     EXPECT_THAT(failure(loadText("{}")), HasSubstr("/asset/version"));
     for (const char* old :
@@ -371,9 +372,9 @@ TEST(Document, NotGltf_IsRefused) {
                 HasSubstr("/asset/version is '3.0'; 2.0 is supported"));
     EXPECT_THAT(failure(loadText("{\"asset\": {\"version\": \"2.0\", \"minVersion\": \"2.1\"}}")),
                 HasSubstr("minVersion is '2.1'"));
-    EXPECT_THAT(failure(loadText("{\"a\": \"\xff\xfe\"}")), HasSubstr("no glTF 2.0 file"));
+    EXPECT_THAT(failure(loadText("{\"a\": \"\xff\xfe\"}")), HasSubstr("not a glTF 2.0 file"));
     EXPECT_THAT(failure(loadText("{\"asset\": {\"version\": \"2.0\"}, \"x\": 1e999}")),
-                HasSubstr("no glTF 2.0 file"));
+                HasSubstr("not a glTF 2.0 file"));
 }
 
 TEST(Document, Empty_IsAnEmptyScene) {

@@ -209,7 +209,7 @@ TEST(HostileWork, FileThatBecameALink_IsNotFollowed) {
     const auto path = std::filesystem::canonical(folder.path()) / "scene.gltf";
     std::filesystem::create_symlink(there, path);
     EXPECT_THAT(failure(load(path, workOn, {1U << 30U, true})),
-                HasSubstr("where a link was put meanwhile"));
+                HasSubstr("which meanwhile became a link"));
 }
 
 } // namespace

@@ -173,7 +173,7 @@ TEST(Images, OutOfRangeOrOutside_LeavesItsTexturesOut) {
 TEST(Images, OtherFormat_LeavesItsTexturesOut) {
     EXPECT_THAT(
         leftOut(withImage(Bytes(64, std::byte{0x42}))),
-        HasSubstr("image 0 is of an unknown format (64 bytes); right is PNG, JPEG, WebP or"));
+        HasSubstr("image 0 is of an unknown format (64 bytes); expected PNG, JPEG, WebP or"));
     EXPECT_THAT(leftOut(withImage(Bytes(1, std::byte{0x89}))), HasSubstr("unknown format (1 byte"));
 }
 
@@ -253,7 +253,7 @@ TEST(Images, WebpAnimation_LeavesItsTexturesOut) {
     const std::string file("RIFF\x16\0\0\0WEBPVP8X\x0A\0\0\0\x02\0\0\0\x03\0\0\x03\0\0", 30);
     const auto* first = reinterpret_cast<const std::byte*>(file.data());
     EXPECT_THAT(leftOut(withImage(Bytes(first, first + file.size()))),
-                HasSubstr("image 0 is a WebP animation; right is one picture"));
+                HasSubstr("image 0 is a WebP animation; expected one picture"));
 }
 
 TEST(Images, Ktx2_HasItsPixelsAndItsMips) {
@@ -321,7 +321,7 @@ TEST(Images, BrokenKtx2WithoutFallback_LeavesItsTexturesOut) {
     ktx2.at(froxel::test::kKtx2FacesAt) = std::byte{6};
     EXPECT_THAT(leftOut(withImage(ktx2)),
                 AllOf(HasSubstr("IMAGE_UNRECOGNIZED_FORMAT at /images/0"),
-                      HasSubstr("it has 6 faces; right is 1; its textures are left out")));
+                      HasSubstr("it has 6 faces; expected 1; its textures are left out")));
 }
 
 TEST(Images, Ktx2SideTooLong_IsRefusedByItsHeader) {

@@ -288,7 +288,7 @@ TEST(Leniency, UnalignedOffset_IsRead) {
     file.attributes()["POSITION"] = accessor;
     const scene::Scene scene = takenWith(
         file.load(), Severity::kInformation, "ACCESSOR_TOTAL_OFFSET_ALIGNMENT at /accessors/1",
-        "accessor 1 begins at byte 39 of its buffer; right is a multiple of 4");
+        "accessor 1 begins at byte 39 of its buffer; expected a multiple of 4");
     EXPECT_EQ(scene.meshes.at(0).primitives.at(0).positions.at(2), glm::vec3(4, 16, 0));
 }
 
@@ -395,7 +395,7 @@ TEST(Leniency, RequiredExtensionOfLooks_IsNamed) {
                                              {"extensions": {"ACME_paint": {}}}])");
     file.primitive()["material"] = 0;
     takenWith(file.load(), Severity::kWarning, "UNSUPPORTED_EXTENSION at /materials/0",
-              "'ACME_paint' is not supported: what it says of 2 things is ignored, the first at "
+              "'ACME_paint' is not supported: the member 2 things is ignored, the first at "
               "'/materials/0'");
 }
 

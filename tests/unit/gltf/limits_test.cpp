@@ -29,7 +29,7 @@ TEST(Limits, WholeNumberBeyond32Bits_KeepsItsValue) {
 
 TEST(Limits, NumberBeyondSinglePrecision_IsLeftOut) {
     EXPECT_THAT(test::told(withEmissiveStrength("1e39").load()),
-                HasSubstr("emissiveStrength is 1e+39; right is a number that single precision"));
+                HasSubstr("emissiveStrength is 1e+39; expected a number that single precision"));
     SceneFile file;
     file.add("cameras", Json::parse(R"({"type": "orthographic", "orthographic":
         {"xmag": 1, "ymag": 1e300, "znear": 0, "zfar": 1}})"));
@@ -44,7 +44,7 @@ TEST(Limits, TextureOffsetBeyondSinglePrecision_IsLeftOut) {
         {"KHR_texture_transform": {"offset": [0, -1e39]}}}})"));
     file.primitive()["material"] = 0;
     EXPECT_THAT(test::told(file.load()),
-                HasSubstr("KHR_texture_transform/offset is -1e+39 at '1'; right is an array of 2"));
+                HasSubstr("KHR_texture_transform/offset is -1e+39 at '1'; expected an array of 2"));
 }
 
 TEST(Limits, LightColorAboveOne_IsKept) {
@@ -55,7 +55,7 @@ TEST(Limits, LightColorAboveOne_IsKept) {
     file.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
     const scene::Scene scene = loaded(file.load());
     EXPECT_EQ(scene.lights.at(0).color, glm::vec3(1, 1, 1.5));
-    EXPECT_THAT(scene.warnings.at(0).message, HasSubstr("light 0 has the color component 1.5"));
+    EXPECT_THAT(scene.warnings.at(0).message, HasSubstr("light 0 has the colour component 1.5"));
 }
 
 TEST(Limits, MorphThatOverflows_IsRefused) {

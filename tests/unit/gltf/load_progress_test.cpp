@@ -62,7 +62,8 @@ TEST(LoadProgress, CalledOff_EndsAtAnyStage) {
         });
         ASSERT_FALSE(scene) << last;
         EXPECT_EQ(scene.error().code, ErrorCode::kCancelled);
-        EXPECT_THAT(scene.error().message, HasSubstr("many.glb: nobody wants it any more"));
+        EXPECT_THAT(scene.error().message,
+                    HasSubstr("many.glb: cancelled, because nobody waits for it"));
         EXPECT_EQ(calls_after, 1);
     }
 }

@@ -80,7 +80,7 @@ TEST(MaterialVariants, BrokenMapping_IsLeftOutWithAWarning) {
     EXPECT_THAT(warningsOf({good, mapping(9, {1})}),
                 ElementsAre(HasSubstr("uses material 9, which it goes without; the file has 3")));
     EXPECT_THAT(warningsOf({good, {{"material", 1}, {"variants", "all"}}}),
-                ElementsAre(HasSubstr("/variants is \"all\"; right is an array")));
+                ElementsAre(HasSubstr("/variants is \"all\"; expected an array")));
     EXPECT_THAT(warningsOf({good, {{"material", 1}, {"variants", {{{"name", "one"}}}}}}),
                 ElementsAre(HasSubstr("uses variant -1; the file has 3")));
     EXPECT_THAT(warningsOf({good, {{"material", 1.5}, {"variants", {1}}}}).size(), 2U);

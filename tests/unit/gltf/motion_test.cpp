@@ -202,8 +202,8 @@ TEST(Motion, WeightsOffOne_AreScaled) {
         file.addAccessor<float>({0, 0, 0, 0, 0.5F, 0.25F, 0, 0, 3, 1, 0, 0}, 4);
     const scene::Scene scene = loaded(file.load());
     EXPECT_THAT(warningLines(scene),
-                ElementsAre(HasSubstr("1 vertices without weights of joints"),
-                            HasSubstr("2 vertices whose weights of joints do not sum to 1")));
+                ElementsAre(HasSubstr("1 vertices without joint weights"),
+                            HasSubstr("2 vertices whose joint weights do not sum to 1")));
     const auto& influences = onlyDeformation(scene).influences;
     ASSERT_EQ(influences.size(), 5U);
     EXPECT_EQ(influences[0].joint, 0U);
@@ -234,8 +234,8 @@ TEST(Motion, WeightsThatAreNotFinite_AreNone) {
     EXPECT_THAT(warningLines(scene),
                 ElementsAre(HasSubstr("ACCESSOR_INVALID_FLOAT at "
                                       "/meshes/0/primitives/0/attributes/WEIGHTS_0: mesh 0 "
-                                      "primitive 0 has 2 vertices with weights"),
-                            HasSubstr("1 vertices without weights of joints")));
+                                      "primitive 0 has 2 vertices with joint weights"),
+                            HasSubstr("1 vertices without joint weights")));
     const auto& influences = onlyDeformation(scene).influences;
     ASSERT_EQ(influences.size(), 4U);
     EXPECT_EQ(influences[0].joint, 0U);
@@ -401,7 +401,7 @@ TEST(Motion, BrokenTracks_KeepTheRestPose) {
     drop({0, nan}, {0, 0, 0, 1, 1, 1}, "a number that is not finite");
     drop({0, 1}, {0, 0, 0, 1, nan, 1}, "a number that is not finite");
     drop({1, 0}, {0, 0, 0, 1, 1, 1}, "keys that go back in time");
-    drop({0, 1}, {0, 0, 0}, "3 numbers of output; right are 6");
+    drop({0, 1}, {0, 0, 0}, "3 numbers of output; expected 6");
     drop({}, {}, "no keys");
 }
 
@@ -414,7 +414,7 @@ TEST(Motion, BrokenChannels_AreNotPlayed) {
     };
     drop("/channels/0/target/path", "pointer", "has the path 'pointer'");
     drop("/channels/0/target/path", "weights", "a node without morph targets");
-    drop("/channels/0/target/path", "rotation", "with 3 components; right is 4");
+    drop("/channels/0/target/path", "rotation", "with 3 components; expected 4");
     drop("/channels/0/target/node", 9, "moves node 9; the file has 1");
     drop("/channels/0/sampler", 5, "uses sampler 5 of 1");
     drop("/samplers/0/interpolation", "SMOOTH", "has the interpolation 'SMOOTH'");
@@ -434,7 +434,7 @@ TEST(Motion, TargetThatIsANumber_MovesNothing) {
     EXPECT_NE(loaded(file.load()).motion, nullptr);
     file.json["animations"][0]["channels"][0]["target"] = 0;
     EXPECT_THAT(test::told(file.load()),
-                HasSubstr("/animations/0/channels/0/target is a number and moves nothing"));
+                HasSubstr("/animations/0/channels/0/target is a number and has no effect"));
 }
 
 TEST(Motion, SecondChannelOfAPath_IsNotPlayed) {
@@ -442,7 +442,8 @@ TEST(Motion, SecondChannelOfAPath_IsNotPlayed) {
     addClip(file, "translation", {0, 1}, {0, 0, 0, 1, 1, 1}, 3);
     file.json["animations"][0]["channels"].push_back(file.json["animations"][0]["channels"][0]);
     const scene::Scene scene = loaded(file.load());
-    EXPECT_THAT(warningLines(scene), ElementsAre(HasSubstr("moves what an earlier channel moves")));
+    EXPECT_THAT(warningLines(scene),
+                ElementsAre(HasSubstr("moves the target of an earlier channel")));
     EXPECT_EQ(scene.motion->clips.at(0).channels.size(), 1U);
 }
 

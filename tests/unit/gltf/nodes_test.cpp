@@ -383,7 +383,7 @@ TEST(Lights, BelowAScaleOfZero_HaveNoDirection) {
     EXPECT_TRUE(spot.lights.empty());
     EXPECT_EQ(spot.instances.size(), 1U);
     EXPECT_THAT(test::warningLines(spot),
-                ElementsAre(HasSubstr("light 0 is on a node whose scale")));
+                ElementsAre(HasSubstr("light 0 is on a node of scale 0")));
     file.json["extensions"]["KHR_lights_punctual"]["lights"][0] = {{"type", "point"}};
     EXPECT_EQ(loaded(file.load()).lights.size(), 1U);
 }

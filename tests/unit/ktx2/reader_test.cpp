@@ -183,14 +183,14 @@ TEST(Ktx2Reader, Etc1s_HasItsColoursWithinItsSteps) {
 TEST(Ktx2Reader, OtherKinds_AreRefusedByName) {
     const Bytes file = ktx2File(rgba8());
     EXPECT_THAT(failureOf(with(file, test::kKtx2DepthAt, 4U)),
-                HasSubstr("it has the depth 4; right is 0"));
+                HasSubstr("it has the depth 4; expected 0"));
     EXPECT_THAT(failureOf(with(file, test::kKtx2LayersAt, 3U)),
-                HasSubstr("it is an array of 3 pictures; right is one"));
-    EXPECT_THAT(failureOf(with(file, test::kKtx2FacesAt, 6U)), HasSubstr("6 faces; right is 1"));
+                HasSubstr("it is an array of 3 pictures; expected one"));
+    EXPECT_THAT(failureOf(with(file, test::kKtx2FacesAt, 6U)), HasSubstr("6 faces; expected 1"));
     EXPECT_THAT(failureOf(with(file, test::kKtx2VkFormatAt, 145U)),
-                HasSubstr("its vkFormat is 145; right is 0 (ETC1S, UASTC)"));
+                HasSubstr("its vkFormat is 145; expected 0 (ETC1S, UASTC)"));
     EXPECT_THAT(failureOf(with(file, test::kKtx2VkFormatAt, 0U)),
-                HasSubstr("the colour model 1; right is ETC1S (163), UASTC (166)"));
+                HasSubstr("the colour model 1; expected ETC1S (163), UASTC (166)"));
     EXPECT_THAT(failureOf(with(file, test::kKtx2SchemeAt, 1U)),
                 HasSubstr("its supercompressionScheme is 1; right of 8 bits a channel is 0, 2"));
     EXPECT_THAT(failureOf(with(file, test::kKtx2SchemeAt, 258U)),
@@ -198,7 +198,7 @@ TEST(Ktx2Reader, OtherKinds_AreRefusedByName) {
     Ktx2Spec two_channels = uastcLevels();
     two_channels.channel = 5;
     EXPECT_THAT(failureOf(ktx2File(two_channels)),
-                HasSubstr("its channels are 5 of the colour model 166; right is RGB or RGBA"));
+                HasSubstr("its channels are 5 of the colour model 166; expected RGB or RGBA"));
     EXPECT_THAT(failureOf(with(etc1sFile(), test::kKtx2SchemeAt, 0U)),
                 HasSubstr("right of ETC1S is 1 (BasisLZ)"));
 }
@@ -209,7 +209,7 @@ TEST(Ktx2Reader, WrongSizes_AreRefused) {
     EXPECT_THAT(failureOf(with(file, test::kKtx2WidthAt, 0xffffffffU)),
                 HasSubstr("it has 4294967295x2 pixels; a side may have 1 to 1073741824"));
     EXPECT_THAT(failureOf(with(file, test::kKtx2WidthAt, 3U)),
-                HasSubstr("level 0 has 16 bytes of texels; right is 24"));
+                HasSubstr("level 0 has 16 bytes of texels; expected 24"));
     EXPECT_THAT(failureOf(with(file, test::kKtx2LevelsAt, 3U)),
                 HasSubstr("it has 3 levels; 2x2 pixels have at most 2"));
     EXPECT_THAT(failureOf(with(file, test::kKtx2IndexAt, uint64_t{1} << 40U)),
@@ -219,7 +219,7 @@ TEST(Ktx2Reader, WrongSizes_AreRefused) {
     EXPECT_THAT(failureOf(with(ktx2File(uastcLevels()), test::kKtx2DescriptorAt, 0xffffffffU)),
                 HasSubstr("its data format descriptor has 44 bytes from byte 4294967295 on"));
     EXPECT_THAT(failureOf(with(ktx2File(uastcLevels()), test::kKtx2DescriptorAt + 4, 12U)),
-                HasSubstr("its data format descriptor has 12 bytes; right is at least 44"));
+                HasSubstr("its data format descriptor has 12 bytes; expected at least 44"));
 }
 
 TEST(Ktx2Reader, WrongPacking_IsRefused) {
@@ -228,7 +228,7 @@ TEST(Ktx2Reader, WrongPacking_IsRefused) {
         Ktx2Spec longer = spec;
         longer.unpacked_bytes[0] = 1ULL << 40U;
         EXPECT_THAT(failureOf(ktx2File(longer)),
-                    HasSubstr("level 0 has 1099511627776 bytes of texels; right is 16"));
+                    HasSubstr("level 0 has 1099511627776 bytes of texels; expected 16"));
         Ktx2Spec shorter = spec;
         shorter.levels[1] = pack(bytesOf({1, 2, 3}));
         EXPECT_THAT(failureOf(ktx2File(shorter)),

@@ -176,7 +176,7 @@ TEST(LightPick, WhatCannotBePicked_IsToldWhy) {
         const auto picked = rig.pick(settings, kTime_s, at);
         return picked ? "" : picked.error().message;
     };
-    EXPECT_THAT(why({-0.9, 0.9}), HasSubstr("is at no light"));
+    EXPECT_THAT(why({-0.9, 0.9}), HasSubstr("hits no light"));
     const FrameLights lights = lightsOf(rig, settings);
     EXPECT_THAT(why(pictureOf(settings, lights.lights[1].position_view)),
                 HasSubstr("a light whose range is 0"));

@@ -73,10 +73,10 @@ TEST_F(HealthTest, Full_IsReady) {
 TEST_F(HealthTest, RenderThreadAtOneStep_IsUnreadyFirstAndDeadLater) {
     serve();
     heartbeat_->beat(Clock::now() - 11s);
-    expectNo(kReadyPath, "the render thread has been at one step for 11");
+    expectNo(kReadyPath, "the render thread has spent 11");
     expectYes(kLivePath);
     heartbeat_->beat(Clock::now() - 31s);
-    expectNo(kLivePath, "it may take 30 s");
+    expectNo(kLivePath, "the limit is 30 s");
     heartbeat_->rest();
     expectYes(kReadyPath);
     expectYes(kLivePath);

@@ -173,7 +173,7 @@ TEST_F(PlacesTest, Room_TakesSoManyViewers_AndThoseWhoComeBack) {
     const Guest second = come(from("192.0.2.2"), "hall").value();
     strict_->depart(second.seat, Departure::kLost, now_);
     EXPECT_EQ(come(from("192.0.2.3"), "hall").error().reason,
-              "all 2 places of this room are taken; try again later");
+              "all 2 places of this room are in use; try again later");
     EXPECT_FALSE(mayCome({"hall", ""}, from("192.0.2.3")));
     EXPECT_TRUE(come(from("192.0.2.3"), "cellar"));
     EXPECT_TRUE(

@@ -61,7 +61,7 @@ TEST(Metrics, FramesThatKeepSurfaces_AreCounted) {
     Metrics metrics;
     auto record = aRecord();
     metrics.frameSent(record);
-    record.stats.kept = true;
+    record.stats.surfaces_reused = true;
     metrics.frameSent(record);
     metrics.frameSent(record);
     EXPECT_THAT(metrics.text(), HasSubstr("\nfroxel_frames_kept_total 2\n"));

@@ -53,7 +53,7 @@ TEST_F(TokenGateTest, BrokenFile_NamesTheLineAndNoToken_AndChangesNothing) {
         EXPECT_THAT(loaded.error().message, HasSubstr(path_ + " line 2"));
         EXPECT_THAT(loaded.error().message, Not(HasSubstr("secret")));
     }
-    EXPECT_THAT(load("# nobody\n").error().message, HasSubstr("has no token"));
+    EXPECT_THAT(load("# nobody\n").error().message, HasSubstr("contains no token"));
     EXPECT_THAT(gate_->load("/no/such/file").error().message, HasSubstr("/no/such/file"));
     EXPECT_TRUE(gate_->lets(kToken));
     EXPECT_FALSE(gate_->lets(""));

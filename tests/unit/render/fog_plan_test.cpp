@@ -78,7 +78,7 @@ TEST(FogPlan, TooManyFroxels_AreRefused) {
     EXPECT_EQ(large.error().code, ErrorCode::kCapacity);
     EXPECT_EQ(large.error().message,
               "fog_tile and fog_slices ask for 481x271x128 froxels, 16684928 in all; at most "
-              "8388608 are allowed: ask for larger tiles or fewer slices");
+              "8388608 are allowed; use larger tiles or fewer slices");
     settings.fog.tile_px = 16;
     EXPECT_FALSE(checkFroxels(makeFog(settings, 50, 0), 65536));
 }

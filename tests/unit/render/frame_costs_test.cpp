@@ -14,7 +14,7 @@ cluster::ClusterGrid gridOf(const settings::GridSize& size, const settings::Size
 struct Load {
     FramePlan plan{.gbuffer = true, .lighting_compute = true, .lists = true};
     DrawList draws;
-    [[nodiscard]] FrameLoad of(const PairBound& pairs) const {
+    [[nodiscard]] CostInputs of(const PairBound& pairs) const {
         return {
             .plan = plan, .draws = draws, .drawn = {640, 360}, .shown = {640, 360}, .pairs = pairs};
     }
@@ -64,7 +64,7 @@ TEST(FrameCosts, OneLongList_CountsWhole) {
 
 TEST(FrameCosts, MoreToLightAPixel_CountsOnceForEach) {
     const Load load;
-    FrameLoad more = load.of(PairBound::uniform(10));
+    CostInputs more = load.of(PairBound::uniform(10));
     const Seconds before = FrameCosts(kCpuUnitCosts, more).total();
     more.lit_pixel = 1e-6;
     const Seconds after = FrameCosts(kCpuUnitCosts, more).total();
@@ -80,7 +80,7 @@ TEST(FrameCosts, Forward_IsWhatItsPixelsAndTrianglesTake) {
     const double triangles = 5000 * unit.triangle;
     const auto estimate = [&](const FramePlan& plan) {
         load.plan = plan;
-        FrameLoad forward = load.of(PairBound::uniform(10));
+        CostInputs forward = load.of(PairBound::uniform(10));
         forward.overdraw = 3;
         return FrameCosts(unit, forward).total().count();
     };
@@ -94,7 +94,7 @@ TEST(FrameCosts, Forward_IsWhatItsPixelsAndTrianglesTake) {
 TEST(FrameCosts, Coats_LightForwardPixelsTwice) {
     Load load;
     load.plan = {.forward = true};
-    FrameLoad coated = load.of(PairBound::uniform(10));
+    CostInputs coated = load.of(PairBound::uniform(10));
     const auto estimate = [&] { return FrameCosts(kCpuUnitCosts, coated).total().count(); };
     const double once = estimate();
     coated.lit_surfaces = 2;
@@ -115,7 +115,7 @@ TEST(FrameCosts, Coats_LightForwardPixelsTwice) {
 // On a GPU: few pixels are few pairs, and each takes its lights one after another.
 TEST(FrameCosts, LongLoopOfFewPixels_CountsAndMayBeRefused) {
     const Load load;
-    FrameLoad few = load.of(PairBound::uniform(900'000));
+    CostInputs few = load.of(PairBound::uniform(900'000));
     few.drawn = few.shown = {16, 16};
     const FrameCosts unknown(kGpuUnitCosts, few);
     EXPECT_LT(unknown.total(), Seconds(0.01));
@@ -134,7 +134,7 @@ TEST(FrameCosts, LongLoopOfFewPixels_CountsAndMayBeRefused) {
 // On a CPU device a part of 8x8 pixels has one core.
 TEST(FrameCosts, LongLoopOnACpu_IsLongerThanItsPixelsShareOfAllCores) {
     const Load load;
-    FrameLoad few = load.of(PairBound::uniform(100'000));
+    CostInputs few = load.of(PairBound::uniform(100'000));
     few.drawn = few.shown = {8, 8};
     few.longest_loop = 100'000;
     const FrameCosts costs(kCpuUnitCosts, few);
@@ -146,7 +146,7 @@ TEST(FrameCosts, LongLoopOnACpu_IsLongerThanItsPixelsShareOfAllCores) {
 // Cutting a picture does not make one pixel's loop shorter.
 TEST(FrameCosts, Loop_IsOfEveryPart) {
     const Load load;
-    FrameLoad long_loop = load.of(PairBound::uniform(100'000));
+    CostInputs long_loop = load.of(PairBound::uniform(100'000));
     long_loop.longest_loop = 100'000;
     const FrameCosts costs(kGpuUnitCosts, long_loop);
     const auto lighting = costs.lighting();
@@ -170,7 +170,7 @@ TEST(FrameCosts, AllPasses_CountTogether) {
 TEST(FrameCosts, PosedVertices_CountFirst) {
     Load load;
     load.plan.pose = true;
-    FrameLoad posed = load.of({});
+    CostInputs posed = load.of({});
     posed.posed_vertices = 1'000'000;
     const auto passes = FrameCosts(kCpuUnitCosts, posed).passes();
     EXPECT_STREQ(passes.front().pass, "pose");
@@ -182,7 +182,7 @@ TEST(FrameCosts, Effects_CountInTheirOrder) {
     Load load;
     load.plan.tonemap = true;
     OnePassEffect filter;
-    FrameLoad with = load.of({});
+    CostInputs with = load.of({});
     const std::array effects = {ActiveEffect{EffectPlace::kPixels, &filter}};
     with.effects = effects;
     const auto passes = FrameCosts(kCpuUnitCosts, with).passes();
@@ -204,7 +204,7 @@ TEST(FrameCosts, PairsWithinALimit_FillIt) {
 // The same lines over a picture four times as wide and high take longer, and are cut smaller.
 TEST(FrameCosts, Lines_CountWhatTheyCover) {
     const Load load;
-    FrameLoad lines = load.of({});
+    CostInputs lines = load.of({});
     lines.wire_lines = 65'000;
     lines.wire_px = 65'000 * 100.0;
     const FrameCosts small(kCpuUnitCosts, lines);

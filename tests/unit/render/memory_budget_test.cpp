@@ -27,7 +27,7 @@ TEST(MemoryBudget, Shares_AddUpWithTheScene) {
     EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
     EXPECT_THAT(refused.error().message,
                 testing::HasSubstr("a picture of 640x360 takes 41 MiB of memory; scenes and "
-                                   "other sessions take 71 of the device's 100"));
+                                   "other sessions use 71 of the device's 100"));
     EXPECT_TRUE(b.take({.device_bytes = 30 * kMib}, "a picture"));
     EXPECT_EQ(budget.takenBytes(), 100 * kMib);
 }

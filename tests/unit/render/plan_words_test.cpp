@@ -34,7 +34,7 @@ TEST(PlanWords, NoLights_SayWhatIsSaved) {
     EXPECT_THAT(words, Contains("no lights: no assignment, no lists, no light loop"));
     EXPECT_THAT(words, Not(Contains(HasSubstr("cone"))));
     EXPECT_THAT(words, Contains("no transparent surface in view: no sort, no blend pass"));
-    EXPECT_THAT(words, Contains("nobody reads linear radiance: no target for it"));
+    EXPECT_THAT(words, Contains("no pass reads linear radiance: no target for it"));
 }
 
 TEST(PlanWords, IorAndSpecular_AreNamedWhereTheyAreStored) {
@@ -53,8 +53,8 @@ TEST(PlanWords, Layers_AreNamedWhereAPassDrawsThem) {
     settings::ViewSettings settings;
     settings.renderer = settings::Renderer::kClusteredDeferred;
     const FrameFacts facts{.layers_visible = true};
-    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("layers: materials with coats")));
-    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("tone map in a pass of its own")));
+    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("materials with layers again")));
+    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("tone mapping in a separate pass")));
     EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("layers:"))));
     settings.renderer = settings::Renderer::kForwardPlus;
     EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("layers:"))));
@@ -86,9 +86,10 @@ TEST(PlanWords, WorkOnTheLitPicture_IsNamedWhereItIs) {
     const auto words = wordsOf(settings, {});
     EXPECT_THAT(words, Contains(HasSubstr("outline")));
     EXPECT_THAT(words, Contains(HasSubstr("bloom by a_trous")));
-    EXPECT_THAT(words, Contains(HasSubstr("exposure of this frame alone")));
+    EXPECT_THAT(words, Contains(HasSubstr("exposure of this frame")));
     EXPECT_THAT(words, Contains(HasSubstr("ssaa4")));
-    EXPECT_THAT(words, Contains("tone map in a pass of its own, after those over the lit picture"));
+    EXPECT_THAT(words,
+                Contains("tone mapping in a separate pass, after the passes over the lit picture"));
     settings.antialiasing = settings::Antialiasing::kFxaa;
     EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("fxaa")));
 }
@@ -125,7 +126,8 @@ TEST(PlanWords, Fog_SaysWhetherLightsAreScattered) {
     EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("no froxel volume")));
     const auto words = wordsOf(settings, {.local_lights = true});
     EXPECT_THAT(words, Contains(HasSubstr("scattered in a froxel volume")));
-    EXPECT_THAT(words, Contains("tone map in a pass of its own, after those over the lit picture"));
+    EXPECT_THAT(words,
+                Contains("tone mapping in a separate pass, after the passes over the lit picture"));
 }
 
 TEST(PlanWords, ShadowMaps_AreNamedWhereTheyAreDrawn) {
@@ -140,9 +142,7 @@ TEST(PlanWords, Environment_IsNamed) {
     settings::ViewSettings settings;
     EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("environment"))));
     settings.environment.light = settings::EnvironmentLight::kStudio;
-    EXPECT_THAT(wordsOf(settings, {}),
-                Contains("environment: light from around by the studio, in the ambient light's "
-                         "place"));
+    EXPECT_THAT(wordsOf(settings, {}), Contains("environment: studio, replaces the ambient light"));
     EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("background"))));
     settings.environment.background = true;
     EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("background: what is around")));

@@ -25,7 +25,7 @@ TEST(FirstView, IsTheFirstCameraThatSeesAnything) {
     EXPECT_EQ(view.cameraFor(kSize), scene.cameras[1].camera);
     ASSERT_TRUE(view.remark.has_value());
     EXPECT_EQ(view.remark->message,
-              "camera 'away' sees nothing of the scene; another view is the first");
+              "camera 'away' sees nothing of the scene; another view is shown first");
     scene.cameras.erase(scene.cameras.begin());
     EXPECT_FALSE(firstViewOf(scene, {}).remark.has_value());
 }

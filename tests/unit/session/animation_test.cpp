@@ -115,7 +115,7 @@ TEST_F(Animation, TimeBeyondTheEnd_GoesOnAsItRepeats) {
 TEST_F(Animation, Unknown_IsRefusedWithThoseThatThereAre) {
     EXPECT_EQ(refusalOf(chosenAs(3)), "animation is 3; this scene has 1 walk, 2 (nameless)");
     initial = applied(initial, chosenAs(0));
-    EXPECT_EQ(refusalOf(seek(0)), "animation_time is 0; no animation is chosen");
+    EXPECT_EQ(refusalOf(seek(0)), "animation_time is 0; no animation is selected");
     context.scene.motion = nullptr;
     EXPECT_EQ(refusalOf(chosenAs(1)), "animation is 1; this scene has none");
 }

@@ -70,17 +70,17 @@ TEST(PlacedLights, ClearAndRemove_ComeFirst) {
 
 TEST(PlacedLights, WhatCannotBe_IsRefusedByName) {
     const auto before = after({}, kTwo);
-    EXPECT_EQ(refusal(before, R"("remove":[9,4])"), "remove[1] is 4; there is no such light");
+    EXPECT_EQ(refusal(before, R"("remove":[9,4])"), "remove[1] is 4; no such light exists");
     EXPECT_EQ(refusal(before, R"("lights":[{"id":4,"radiusM":1}])"),
-              "lights[0].position is missing; light 4 is not there yet");
+              "lights[0].position is missing; light 4 does not exist yet");
     EXPECT_EQ(refusal(before, R"("lights":[{"id":2,"innerConeDeg":60}])"),
               "lights[0].inner_cone_deg is 60; it must be at most outer_cone_deg, 45");
     EXPECT_EQ(
         refusal(before, R"("lights":[{"id":2,"replacesScene":3},{"id":9,"replacesScene":3}])"),
-        "lights 2 and 9 would stand for the same light; only one can");
+        "lights 2 and 9 would replace the same light; only one can");
     EXPECT_EQ(
         refusal(before, R"("lights":[{"id":2,"kind":"LIGHT_KIND_AREA","widthM":6,"heightM":8}])"),
-        "lights[0].radius_m is 2; a rectangle's corners must lie within it, here 5");
+        "lights[0].radius_m is 2; the rectangle's corners must lie within it; they are at 5");
 }
 
 TEST(PlacedLights, WhatALightStandsFor_IsKeptAndTold) {
@@ -116,7 +116,7 @@ TEST(PlacedLights, Picked_IsOneMore_UnlessItsIdIsInUse) {
     EXPECT_EQ(placed.lights().size(), 3U);
     EXPECT_EQ(*placed.find(5), picked);
     picked.id = 9;
-    EXPECT_EQ(withPicked(before, picked).error().message, "id is 9; another light has it");
+    EXPECT_EQ(withPicked(before, picked).error().message, "id is 9; another light already has it");
 }
 
 TEST(PlacedLights, Fields_AreCheckedWhenDecoded) {
@@ -126,13 +126,13 @@ TEST(PlacedLights, Fields_AreCheckedWhenDecoded) {
     EXPECT_EQ(message(""), "lights is missing");
     EXPECT_THAT(message(R"("lights":[{"position":{}}])"), HasSubstr("lights[0].id is 0"));
     EXPECT_EQ(message(R"("lights":[{"id":1,"position":{}},{"id":1,"position":{}}])"),
-              "lights[1].id is 1; another light has it");
+              "lights[1].id is 1; another light already has it");
     EXPECT_THAT(message(R"("lights":[{"id":1,"direction":{}}])"),
                 HasSubstr("lights[0].direction is 0"));
     EXPECT_THAT(message(R"("lights":[{"id":1,"intensity":-1}])"),
                 HasSubstr("lights[0].intensity is -1"));
     EXPECT_THAT(message(R"("lights":[{"id":1,"replacesScene":1,"replacesSeeded":1}])"),
-                HasSubstr("lights[0].replaces_scene is there beside replaces_seeded"));
+                HasSubstr("lights[0].replaces_scene is set together with replaces_seeded"));
     EXPECT_THAT(message(R"("lights":[{"id":1,"kind":9}])"),
                 HasSubstr("known are LIGHT_KIND_POINT"));
 }
@@ -156,7 +156,7 @@ TEST(LightSet, OfAFile_IsTheMessageWithLightsAlone) {
     ASSERT_TRUE(set) << set.error().message;
     EXPECT_EQ(set->lights().size(), 2U);
     EXPECT_EQ(parseLightSet(R"({"lights":[],"clear":true})").error().message,
-              "clear is there; a light set has lights alone");
+              "clear is set; a light set may contain only lights");
     EXPECT_THAT(parseLightSet("[1]").error().message, HasSubstr("must be an object"));
     EXPECT_THAT(parseLightSet("{\"lights\":[{").error().message, HasSubstr("not JSON"));
     EXPECT_THAT(parseLightSet("{\"lights\":[{\"id\":1}]}").error().message,

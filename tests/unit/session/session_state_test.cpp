@@ -112,7 +112,7 @@ TEST_F(State, SelectSceneCamera_Unknown_NamesWhatThereIs) {
     EXPECT_EQ(result.error().ref_seq, 9U);
     EXPECT_EQ(result.error().field, "name");
     EXPECT_EQ(result.error().message,
-              "name \"na\\x0ave\" is no camera of this scene; it has nave, plan");
+              "name \"na\\x0ave\" is not a camera of this scene; it has nave, plan");
     context.scene.cameras.clear();
     EXPECT_THAT(
         apply(initial, {{9, 0}, SelectSceneCamera{"nave"}}, context, kStart).error().message,
@@ -210,7 +210,7 @@ TEST_F(State, PickLight_PlacesWhatIsThere_UnlessNothingIs) {
     context.pick_light = pickNone;
     const auto none = apply(state, {{9, 90}, PickLight{4, {}}}, context, kStart);
     ASSERT_FALSE(none);
-    EXPECT_EQ(none.error().message, "x is at no light");
+    EXPECT_EQ(none.error().message, "x hits no light");
 }
 
 TEST_F(State, TheOtherCommands_SetTheirFields) {

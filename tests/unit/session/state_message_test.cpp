@@ -390,7 +390,7 @@ TEST(FrameHeader, MeteredExposure_IsThereOnlyWhereTheFrameHasOne) {
 TEST(FrameHeader, SurfacesThatAreKept_AreToldSo) {
     FrameRecord frame = record();
     for (const bool kept : {true, false}) {
-        frame.stats.kept = kept;
+        frame.stats.surfaces_reused = kept;
         EXPECT_EQ(makeFrameHeader(frame).surfaces_kept(), kept);
     }
 }
@@ -401,7 +401,7 @@ TEST(FrameHeader, ShadowMaps_AreThereOnlyWhereALightHasOne) {
     EXPECT_FALSE(makeFrameHeader(frame).has_shadows());
     frame.stats.shadows = {.light_count = 2,
                            .map_count = 7,
-                           .kept_count = 3,
+                           .reused_count = 3,
                            .draw_count = 90,
                            .triangle_count = 1200};
     EXPECT_EQ(makeFrameHeader(frame).shadows().lights(), 2U);

@@ -203,7 +203,7 @@ TEST_F(StillDeskTest, All_WaitForSixtyFour) {
         EXPECT_FALSE(ask(std::to_string(i), "", std::nullopt).answered());
     }
     EXPECT_THAT(ask("one more", "", std::nullopt).refusal().why.message,
-                HasSubstr("64 stills are waited for"));
+                HasSubstr("64 stills are waiting"));
 }
 
 TEST_F(StillDeskTest, OneAccount_DrawsSoManyAMinute) {
@@ -342,7 +342,7 @@ TEST_F(StillDeskTest, All_HaveSoManyBytesOnTheirWay_ButOneAloneMayBeLarger) {
     EXPECT_FALSE(first.answered());
     const Asked other = ask("b", "", session::Account{"198.51.100.1"});
     EXPECT_EQ(other.refusal().why.code, session::RejectCode::kCapacity);
-    EXPECT_THAT(other.refusal().why.message, HasSubstr("drawn or on their way"));
+    EXPECT_THAT(other.refusal().why.message, HasSubstr("being drawn or sent"));
     const Asked same = ask("a", "", session::Account{"198.51.100.1"});
     EXPECT_EQ(same.refusal().why.code, session::RejectCode::kCapacity);
     const Asked small = ask("c", "", session::Account{"198.51.100.1"}, "32x32");
@@ -389,7 +389,7 @@ TEST_F(StillDeskTest, SceneThatDidNotComeInTime_IsDismissed) {
     const Asked asked = ask("a", "scene1");
     EXPECT_EQ(scenes_.waiters.size(), 1U);
     desk_->expire(kNow + 61s);
-    EXPECT_THAT(asked.refusal().why.message, HasSubstr("did not come in time"));
+    EXPECT_THAT(asked.refusal().why.message, HasSubstr("was not ready in time"));
     EXPECT_TRUE(scenes_.waiters.empty()) << "its reader would go on for nobody";
 }
 

@@ -134,7 +134,7 @@ TEST(StillView, Look_IsBelowWhatElseIsSaid) {
 
 TEST(StillView, BadEntries_AreToldWhatWouldBeRight) {
     expectRefused({{"nonsense", "1"}}, RejectCode::kUnsupported,
-                  "nonsense is no name of the page's address");
+                  "nonsense is not a name of the page's address");
     expectRefused({{"lights", "-1"}}, RejectCode::kOutOfRange,
                   "lights: '-1' is not a whole number from 0 to");
     expectRefused({{"exposure", "nan"}}, RejectCode::kOutOfRange, "exposure: 'nan' is not");
@@ -147,7 +147,7 @@ TEST(StillView, BadEntries_AreToldWhatWouldBeRight) {
     expectRefused({{"placed_lights", R"({"remove":[1]})"}}, RejectCode::kOutOfRange, "lights");
     expectRefused({{"fov_deg", "200"}}, RejectCode::kOutOfRange, "fov_deg: '200' is not");
     expectRefused({{"fov_deg", "60"}, {"half_height", "3"}}, RejectCode::kOutOfRange,
-                  "a camera has one of them");
+                  "set one of them");
     expectRefused({{"toon_compute", "0,0,1;0,1,1"}}, RejectCode::kOutOfRange, "ascending x");
     expectRefused({{"material_variant", "3"}}, RejectCode::kOutOfRange, "this scene has");
     expectRefused({{"animation", "1"}}, RejectCode::kOutOfRange, "this scene has");

@@ -286,7 +286,7 @@ TEST_F(SceneHostTest, FileThatTakesFarTooLong_IsGivenUp) {
     ASSERT_TRUE(outcome);
     ASSERT_FALSE(*outcome);
     EXPECT_EQ(outcome->error().code, ErrorCode::kScene);
-    EXPECT_THAT(outcome->error().message, HasSubstr("given up"));
+    EXPECT_THAT(outcome->error().message, HasSubstr("did not finish"));
 }
 
 TEST_F(SceneHostTest, UnknownScene_IsRefused) {
@@ -294,7 +294,7 @@ TEST_F(SceneHostTest, UnknownScene_IsRefused) {
     const auto refused = host_->want("zz\n", std::make_shared<Waiter>());
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
-    EXPECT_EQ(refused.error().message, "is \"zz\\x0a\", which is no scene of this server");
+    EXPECT_EQ(refused.error().message, "is \"zz\\x0a\", which is not a scene of this server");
 }
 
 TEST_F(SceneHostTest, FileThatCannotBeRead_IsToldInOneLineAndMayBeTriedAgain) {

@@ -23,9 +23,9 @@ struct DrawItem {
 };
 
 // Used by the render thread; frames on the device hold the one that they draw.
-class Dressing {
+class MaterialSet {
   public:
-    Dressing(SceneResources& scene, std::vector<DrawItem> items);
+    MaterialSet(SceneResources& scene, std::vector<DrawItem> items);
 
     // As they stand at time 0, where the scene moves; a frame has its ScenePose.
     const std::vector<DrawItem> items;

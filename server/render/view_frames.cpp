@@ -1,4 +1,4 @@
-#include "render/frame_maker.h"
+#include "render/view_frames.h"
 
 #include "render/blended_recorder.h"
 #include "render/frame_recorder.h"
@@ -37,18 +37,18 @@ void beginFlight(FrameSlot& slot) {
 
 } // namespace
 
-Result<void> FrameMaker::takeMemory(FrameSlot& slot,
+Result<void> ViewFrames::takeMemory(FrameSlot& slot,
                                     const FramePlan& plan,
                                     const FrameInputs& asked,
                                     const Slots& slots) {
-    builder_.gather(slot.upload, effects_.ofFrame());
+    host_work_.gather(slot.upload, effects_.ofFrame());
     target_needs_ = targetNeeds(plan, scene_.shared.device, drawnSize(asked.settings),
                                 asked.settings.size, targets_.get());
-    FrameMemory frame = frameMemory(builder_, plan, asked, target_needs_, effects_.ofFrame());
+    FrameMemory frame = frameMemory(host_work_, plan, asked, target_needs_, effects_.ofFrame());
     letGo(slots, slot, frame);
     if (auto taken = take(memory_, frame, scene_.shared.device, pictureWords(asked.settings));
         !taken) {
-        builder_.letGo();
+        host_work_.letGo();
         return taken;
     }
     // What does not fit goes before anything else is made; frames in flight keep theirs.
@@ -60,31 +60,31 @@ Result<void> FrameMaker::takeMemory(FrameSlot& slot,
     return {};
 }
 
-bool FrameMaker::keepsSurfaces(const FramePlan& plan, const FrameInputs& asked) const {
+bool ViewFrames::reusesSurfaces(const FramePlan& plan, const FrameInputs& asked) const {
     const settings::Size drawn = drawnSize(asked.settings);
     return asked.keep_surfaces && targets_ && !targets_->fresh && leavesSurfaces(plan) &&
-           targets_->surfaces == builder_.surfaces(plan) &&
+           targets_->surfaces == host_work_.surfaces(plan) &&
            targets_->fits(
                drawn, asked.settings.size,
                targetNeeds(plan, scene_.shared.device, drawn, asked.settings.size, targets_.get()));
 }
 
-bool FrameMaker::keepsPose(const FrameInputs& asked) const {
+bool ViewFrames::reusesPose(const FrameInputs& asked) const {
     return asked.keep_surfaces && posed_ && !posed_->fresh &&
-           posed_->pose == builder_.pose().number();
+           posed_->pose == host_work_.pose().number();
 }
 
-void FrameMaker::noteDrawn(const FramePlan& plan, const SurfacesDrawn& surfaces) {
+void ViewFrames::noteDrawn(const FramePlan& plan, const SurfacesDrawn& surfaces) {
     targets_->surfaces.reset();
     if (leavesSurfaces(plan)) {
         targets_->surfaces = surfaces;
     }
     if (plan.pose) {
-        posed_->pose = builder_.pose().number();
+        posed_->pose = host_work_.pose().number();
     }
 }
 
-void FrameMaker::prepareTargets(FrameSlot& slot,
+void ViewFrames::prepareTargets(FrameSlot& slot,
                                 const FramePlan& plan,
                                 const settings::Size& drawn,
                                 const settings::Size& shown) {
@@ -96,17 +96,17 @@ void FrameMaker::prepareTargets(FrameSlot& slot,
     slot.makeReadback(scene_.shared.device, readbackBytes(drawn, shown, slot.inputs.keep_radiance));
 }
 
-void FrameMaker::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
+void ViewFrames::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
     slot.blend.reset(); // its last frame has finished
     slot.blend = blend_ = blendTargetsFor(plan, scene_.shared.device, scene_.shared.pipelines,
                                           targets_, std::move(blend_));
-    slot.counts_overflow = countsOverflow(plan, builder_.draws());
+    slot.counts_overflow = countsOverflow(plan, host_work_.draws());
     if (slot.counts_overflow && !slot.overflow) {
         slot.overflow = std::make_unique<gpu::SampleCounter>(scene_.shared.device);
     }
 }
 
-void FrameMaker::preparePose(FrameSlot& slot, const UploadOffsets& offsets) {
+void ViewFrames::preparePose(FrameSlot& slot, const UploadOffsets& offsets) {
     const MeshPoser& poser = *scene_.poser();
     if (!posed_) {
         posed_ = std::make_shared<PosedVertices>(scene_);
@@ -120,32 +120,33 @@ void FrameMaker::preparePose(FrameSlot& slot, const UploadOffsets& offsets) {
         return vk::DescriptorBufferInfo{slot.upload.buffer(), offset, std::max<size_t>(bytes, 16)};
     };
     slot.pose->write(scene_, poser, *posed_,
-                     part(offsets.joints, builder_.pose().joints().size_bytes()),
-                     part(offsets.weights, builder_.pose().weights().size_bytes()));
+                     part(offsets.joints, host_work_.pose().joints().size_bytes()),
+                     part(offsets.weights, host_work_.pose().weights().size_bytes()));
 }
 
-void FrameMaker::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
+void ViewFrames::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
     if (!slot.visibility) {
-        slot.visibility =
-            std::make_unique<VisibilityFrame>(scene_.shared.device, slot.dressing->visibility());
+        slot.visibility = std::make_unique<VisibilityFrame>(scene_.shared.device,
+                                                            slot.material_set->visibility());
     }
     const auto& t = *slot.targets;
     slot.visibility->write(
         {.resources = scene_,
-         .scene = slot.dressing->visibility(),
+         .scene = slot.material_set->visibility(),
          .vertices = vertexBuffers(scene_, slot.posed.get()),
          .instances = {slot.upload.buffer(), offsets.instances,
                        scene_.instances.size() * sizeof(io::InstanceView)},
          .order = {slot.upload.buffer(), offsets.meshlet_order,
-                   slot.dressing->visibility().placed.size() * sizeof(uint32_t)},
+                   slot.material_set->visibility().placed.size() * sizeof(uint32_t)},
          .ids = *t.ids.view,
          .gbuffer = t.needs.gbuffer ? *t.gbuffer.view : *t.ids.view,
-         .raster = t.rastered_in_compute ? &slot.dressing->visibility().computeRaster() : nullptr,
+         .raster =
+             t.rastered_in_compute ? &slot.material_set->visibility().computeRaster() : nullptr,
          .words = *t.words.handle,
          .depth = *t.compute_depth.view});
 }
 
-void FrameMaker::prepareParts(FrameSlot& slot,
+void ViewFrames::prepareParts(FrameSlot& slot,
                               const FramePlan& plan,
                               const UploadOffsets& offsets) {
     writeScreenSet(scene_.shared.device, slot,
@@ -164,35 +165,35 @@ void FrameMaker::prepareParts(FrameSlot& slot,
     }
 }
 
-void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameInputs& inputs) {
+void ViewFrames::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameInputs& inputs) {
     slot.stats = {};
-    slot.stats.kept = plan.kept;
-    slot.stats.triangle_count = builder_.draws().triangle_count;
+    slot.stats.surfaces_reused = plan.reused;
+    slot.stats.triangle_count = host_work_.draws().triangle_count;
     if (plan.visibility) { // the host does not know what the device culls
-        slot.stats.triangle_count += slot.dressing->visibility().triangle_count;
+        slot.stats.triangle_count += slot.material_set->visibility().triangle_count;
     }
-    slot.stats.draw_count = static_cast<uint32_t>(builder_.draws().commands.size());
+    slot.stats.draw_count = static_cast<uint32_t>(host_work_.draws().commands.size());
     slot.effects.assign(effects_.ofFrame().begin(), effects_.ofFrame().end());
     for (const auto& [place, effect] : slot.effects) {
         effect->addStats(slot.stats);
     }
-    slot.stats.lists = builder_.listStats();
-    slot.stats.peel.layer_count = peelLayers(plan, builder_.draws());
+    slot.stats.lists = host_work_.listStats();
+    slot.stats.peel.layer_count = peelLayers(plan, host_work_.draws());
     FramePlan described = plan;
     // Come and go: of this frame's figures, not of what describes many.
-    described.kept = described.pose_kept = false;
+    described.reused = described.pose_reused = false;
     slot.stats.details = details_.update(
-        inputs.settings, builder_.plannedFacts(), described, scene_.needs,
+        inputs.settings, host_work_.plannedFacts(), described, scene_.needs,
         *scene_.shared.device.memoryLedger(),
-        plan.debug != settings::DebugView::kNone ? &builder_.debugFrame().legend : nullptr);
-    slot.stats.grid = builder_.gridStats();
+        plan.debug != settings::DebugView::kNone ? &host_work_.debugFrame().legend : nullptr);
+    slot.stats.grid = host_work_.gridStats();
     slot.counts_pairs = plan.count_pairs;
     slot.counts_samples = plan.count_samples;
     slot.stats.pairs.counted = inputs.settings.count_pairs; // without lights: as none
 }
 
-Result<FrameMaker::Made>
-FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots) {
+Result<ViewFrames::Made>
+ViewFrames::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots) {
     VariantMaker& variants = scene_.shared.variants;
     if (variants.busyFor(this)) {
         return Made::kNothing;
@@ -208,7 +209,7 @@ FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slot
             slot.uses.end();
         }
         if (!recorded) {
-            builder_.forgetLists();
+            host_work_.forgetLists();
             return recorded.error();
         }
         return *recorded ? Made::kFrame : Made::kHalf;
@@ -222,27 +223,27 @@ FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slot
     }
 }
 
-Result<bool> FrameMaker::build(const FrameInputs& inputs) {
-    if (!builder_.builds(inputs)) {
+Result<bool> ViewFrames::build(const FrameInputs& inputs) {
+    if (!host_work_.builds(inputs)) {
         if (auto able = checkAllLights(unitCosts(), inputs.settings, limits().frame); !able) {
             return able.error();
         }
         started_ = Clock::now();
         built_us_ = 0;
-        builder_.start(inputs, work_.host.has_value());
+        host_work_.start(inputs, work_.host.has_value());
     }
     const auto begun = Clock::now();
-    while (!builder_.built()) {
-        builder_.advance(effects_);
+    while (!host_work_.built()) {
+        host_work_.advance(effects_);
         if (work_.host && Clock::now() - begun >= *work_.host) {
-            builder_.settle();
+            host_work_.settle();
             return false; // what follows a last stage takes its time, too
         }
     }
     return true;
 }
 
-Result<bool> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, const Slots& slots) {
+Result<bool> ViewFrames::recordNow(FrameSlot& slot, const FrameInputs& asked, const Slots& slots) {
     const auto start = Clock::now();
     FrameInputs inputs = asked;
     inputs.settings.size = drawnSize(asked.settings);
@@ -257,27 +258,27 @@ Result<bool> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
     return true;
 }
 
-Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
+Result<void> ViewFrames::recordBuilt(FrameSlot& slot,
                                      const FrameInputs& inputs,
                                      const FrameInputs& asked,
                                      const Slots& slots) {
     const auto start = Clock::now();
-    FramePlan plan = builder_.take();
-    if (inputs.settings.list_cap > 0 && plan.lists && builder_.listStats().overflowed) {
-        return tooManyToCap(builder_.localLightCount());
+    FramePlan plan = host_work_.take();
+    if (inputs.settings.list_cap > 0 && plan.lists && host_work_.listStats().overflowed) {
+        return tooManyToCap(host_work_.localLightCount());
     }
-    if (auto built = effects_.build(plan, {inputs.settings, builder_.pose(), builder_.lights(),
+    if (auto built = effects_.build(plan, {inputs.settings, host_work_.pose(), host_work_.lights(),
                                            inputs.time_s, asked.keep_surfaces});
         !built) {
         return built;
     }
-    const SurfacesDrawn surfaces = builder_.surfaces(plan);
-    plan.kept = keepsSurfaces(plan, asked);
-    plan.spoil_scratch = plan.kept && inputs.spoil_scratch;
-    plan.pose_kept = keepsPose(asked);
+    const SurfacesDrawn surfaces = host_work_.surfaces(plan);
+    plan.reused = reusesSurfaces(plan, asked);
+    plan.spoil_scratch = plan.reused && inputs.spoil_scratch;
+    plan.pose_reused = reusesPose(asked);
     const WorkLimits limits = this->limits();
     const FrameCosts costs =
-        builder_.costs(plan, asked.settings.size, effects_.ofFrame(), unitCosts(), limits);
+        host_work_.costs(plan, asked.settings.size, effects_.ofFrame(), unitCosts(), limits);
     if (auto affordable = costs.check(limits.frame, limits.loop); !affordable) {
         return affordable;
     }
@@ -286,8 +287,8 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     }
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
     prepareBlend(slot, plan);
-    slot.dressing = builder_.pose().dressing();
-    const UploadOffsets offsets = builder_.upload(slot, effects_.ofFrame());
+    slot.material_set = host_work_.pose().material_set();
+    const UploadOffsets offsets = host_work_.upload(slot, effects_.ofFrame());
     prepareParts(slot, plan, offsets);
     const Seconds fine = partOf(costs.total(), limits.piece * piece_share_);
     const Seconds piece = std::max(limits.piece, fine);
@@ -295,10 +296,10 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
         {.scene = scene_,
          .slot = slot,
          .plan = plan,
-         .draws = builder_.draws(),
+         .draws = host_work_.draws(),
          .offsets = offsets,
-         .visibility = plan.visibility ? &slot.dressing->visibility() : nullptr,
-         .debug = plan.debug != settings::DebugView::kNone ? &builder_.debugFrame() : nullptr,
+         .visibility = plan.visibility ? &slot.material_set->visibility() : nullptr,
+         .debug = plan.debug != settings::DebugView::kNone ? &host_work_.debugFrame() : nullptr,
          .effects = effects_.ofFrame(),
          .pieces = slot.pieces,
          .costs = costs},
@@ -316,14 +317,14 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     return {};
 }
 
-void FrameMaker::freeTargets() {
+void ViewFrames::freeTargets() {
     blend_.reset();
     posed_.reset();
     effects_.freeTargets();
     targets_.reset();
 }
 
-RenderedFrame FrameMaker::finish(FrameSlot& slot) {
+RenderedFrame ViewFrames::finish(FrameSlot& slot) {
     slot.timestamps.read(slot.stats, slot.pieces.count() > 1);
     if (slot.device_lists) {
         std::string why = std::move(slot.stats.lists.why);

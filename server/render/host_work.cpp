@@ -1,4 +1,4 @@
-#include "render/frame_builder.h"
+#include "render/host_work.h"
 
 #include "area_light_table/table.h"
 #include "render/blended_recorder.h"
@@ -45,7 +45,7 @@ bool byIds(GeometryPath path) {
 
 } // namespace
 
-bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
+bool HostWork::choosesVisibility(const FrameInputs& inputs) {
     using settings::LightingStage;
     const auto& traits = scene_.shared.device.traits();
     if (inputs.settings.debug.view == settings::DebugView::kOverdraw) {
@@ -57,26 +57,26 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
     // Only the rasteriser writes one, and only it draws layers where lights are added up there.
     const bool second_target =
         extraFormat(inputs.settings.gbuffer,
-                    storesSpecular(inputs.settings, pose_.dressing()->needs.specular)) !=
+                    storesSpecular(inputs.settings, pose_.material_set()->needs.specular)) !=
         vk::Format::eUndefined;
     const bool wanted =
         isForward(inputs.settings.renderer)
             ? stage == LightingStage::kCompute || (stage == LightingStage::kAuto && pays)
             : !second_target && (byIds(inputs.geometry) || pays) &&
                   (stage != LightingStage::kFragment ||
-                   !drawsLayers(inputs.settings, pose_.dressing()->needs.layers));
-    return wanted && pose_.dressing()->visibility_unusable.empty() && pose_.windsAsAtStart() &&
-           !pose_.dressing()->visibility().groups.empty();
+                   !drawsLayers(inputs.settings, pose_.material_set()->needs.layers));
+    return wanted && pose_.material_set()->visibility_unusable.empty() && pose_.windsAsAtStart() &&
+           !pose_.material_set()->visibility().groups.empty();
 }
 
-bool FrameBuilder::choosesComputeRaster(const FrameInputs& inputs) {
+bool HostWork::choosesComputeRaster(const FrameInputs& inputs) {
     const bool wanted =
         inputs.geometry == GeometryPath::kComputeRaster ||
         (inputs.geometry == GeometryPath::kAuto && !scene_.shared.device.traits().is_cpu);
-    return wanted && pose_.dressing()->visibility().compute_unusable.empty();
+    return wanted && pose_.material_set()->visibility().compute_unusable.empty();
 }
 
-bool FrameBuilder::prepass(const FrameInputs& inputs) const {
+bool HostWork::prepass(const FrameInputs& inputs) const {
     const bool forward = isForward(inputs.settings.renderer);
     if (inputs.depth_prepass || !scene_.overdraw) {
         return inputs.depth_prepass.value_or(forward);
@@ -91,23 +91,23 @@ bool FrameBuilder::prepass(const FrameInputs& inputs) const {
                        scene_.shared.device.traits().is_cpu ? kCpuPrepassCosts : kGpuPrepassCosts);
 }
 
-bool FrameBuilder::layersVisible() const {
+bool HostWork::layersVisible() const {
     const auto has = [](MaterialFlags flags) { return (flags & io::kMaterialLayers) != 0; };
-    return visibility_ ? has(pose_.dressing()->visibility().material_flags)
+    return visibility_ ? has(pose_.material_set()->visibility().material_flags)
                        : std::ranges::any_of(draws_.solid, has, &DrawGroup::material_flags);
 }
 
-FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
+FrameFacts HostWork::facts(const FrameInputs& inputs) const {
     const auto& traits = scene_.shared.device.traits();
     return {.wide_gbuffer = inputs.settings.shading == settings::ShadingModel::kLambert
-                                ? pose_.dressing()->needs.wide_lambert
-                                : pose_.dressing()->needs.wide_gbuffer,
-            .emission_exponent = pose_.dressing()->needs.emission_exponent,
-            .specular = pose_.dressing()->needs.specular,
-            .edges = pose_.dressing()->needs.edges,
+                                ? pose_.material_set()->needs.wide_lambert
+                                : pose_.material_set()->needs.wide_gbuffer,
+            .emission_exponent = pose_.material_set()->needs.emission_exponent,
+            .specular = pose_.material_set()->needs.specular,
+            .edges = pose_.material_set()->needs.edges,
             .layers_visible = layersVisible(),
             .transparent_visible = !draws_.transparent.empty(),
-            .unlit_solid = pose_.dressing()->needs.unlit,
+            .unlit_solid = pose_.material_set()->needs.unlit,
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),
             .areas = !lights_.areas.empty(),
@@ -134,7 +134,7 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .bends = scene_.poser() != nullptr};
 }
 
-bool FrameBuilder::assignsOnDevice(const FrameInputs& inputs) {
+bool HostWork::assignsOnDevice(const FrameInputs& inputs) {
     const bool wanted =
         inputs.assignment == AssignmentPlace::kDevice ||
         (inputs.assignment == AssignmentPlace::kAuto && !scene_.shared.device.traits().is_cpu);
@@ -151,7 +151,7 @@ bool FrameBuilder::assignsOnDevice(const FrameInputs& inputs) {
     return !device_lists_.refused();
 }
 
-bool FrameBuilder::acceptLists(const AssignSlot& lists) {
+bool HostWork::acceptLists(const AssignSlot& lists) {
     const io::AssignTotals totals = lists.totals();
     const bool whole = device_lists_.accept(totals);
     if (const auto tiles = lists.tileLongest();
@@ -166,7 +166,7 @@ bool FrameBuilder::acceptLists(const AssignSlot& lists) {
     return whole;
 }
 
-const cluster::GridCosts& FrameBuilder::gridCosts(const settings::ViewSettings& settings) const {
+const cluster::GridCosts& HostWork::gridCosts(const settings::ViewSettings& settings) const {
     if (scene_.shared.device.traits().is_cpu) {
         return cluster::kCpuCosts;
     }
@@ -176,7 +176,7 @@ const cluster::GridCosts& FrameBuilder::gridCosts(const settings::ViewSettings& 
     return in_fragments ? cluster::kGpuFragmentCosts : cluster::kGpuCosts;
 }
 
-void FrameBuilder::start(const FrameInputs& inputs, bool in_parts) {
+void HostWork::start(const FrameInputs& inputs, bool in_parts) {
     culling_ = {}; // reads the inputs
     inputs_ = inputs;
     in_parts_ = in_parts;
@@ -196,7 +196,7 @@ void FrameBuilder::start(const FrameInputs& inputs, bool in_parts) {
 
 // On a CPU device culling and light assignment, which do not need each other, go side by side:
 // 7 becomes 5 ms on two cores (Sponza). Elsewhere the host has too little to do for a thread.
-void FrameBuilder::startCulling() {
+void HostWork::startCulling() {
     const bool is_cpu = scene_.shared.device.traits().is_cpu;
     const auto order = inputs_.settings.transparency == settings::Transparency::kSorted
                            ? TransparentOrder::kByDistance
@@ -214,12 +214,12 @@ void FrameBuilder::startCulling() {
                           !visibility_, order, draws_);
             if (visibility_) {
                 placeInstances(pose_.instances(), settings.camera, draws_.rows, instances_);
-                orderMeshlets(pose_.dressing()->visibility(), draws_.rows, meshlet_order_);
+                orderMeshlets(pose_.material_set()->visibility(), draws_.rows, meshlet_order_);
             }
         });
 }
 
-void FrameBuilder::advance(ViewEffects& effects) {
+void HostWork::advance(ViewEffects& effects) {
     // Whatever throws ends what was begun.
     switch (*std::exchange(stage_, std::nullopt)) {
     case Stage::kLights:
@@ -248,23 +248,23 @@ void FrameBuilder::advance(ViewEffects& effects) {
     }
 }
 
-void FrameBuilder::settle() const {
+void HostWork::settle() const {
     if (culling_.valid() &&
         culling_.wait_for(std::chrono::seconds(0)) != std::future_status::deferred) {
         culling_.wait();
     }
 }
 
-FramePlan FrameBuilder::take() {
+FramePlan HostWork::take() {
     stage_.reset();
     return plan_;
 }
 
-const light::FrameLights& FrameBuilder::reach() const {
+const light::FrameLights& HostWork::reach() const {
     return storesHalves(inputs_.settings) ? grown_ : lights_;
 }
 
-bool FrameBuilder::evaluateMore() {
+bool HostWork::evaluateMore() {
     constexpr uint32_t kLightsOfAStage = 100'000;
     if (!evaluation_) {
         beginLights();
@@ -276,7 +276,7 @@ bool FrameBuilder::evaluateMore() {
     return done;
 }
 
-void FrameBuilder::beginLights() {
+void HostWork::beginLights() {
     settings::Lights lights = inputs_.settings.lights;
     if (!needsLights(inputs_.settings.debug.view)) {
         lights.count = 0;
@@ -287,7 +287,7 @@ void FrameBuilder::beginLights() {
                         inputs_.time_s, lights_);
 }
 
-void FrameBuilder::chooseGrid() {
+void HostWork::chooseGrid() {
     const auto& settings = inputs_.settings;
     if (storesHalves(settings)) {
         growForHalves(lights_, grown_);
@@ -297,11 +297,11 @@ void FrameBuilder::chooseGrid() {
                        reach(), pose_.boundsWorld(), gridCosts(settings));
 }
 
-uint64_t FrameBuilder::entriesOfAStage() const {
+uint64_t HostWork::entriesOfAStage() const {
     return in_parts_ ? 2'000'000 : UINT64_MAX;
 }
 
-bool FrameBuilder::capMore() {
+bool HostWork::capMore() {
     if (!cap_) {
         cap_.emplace(light_grid_.grid(), reach(), inputs_.settings.list_cap,
                      scene_.shared.light_assigner.crew(), lists_);
@@ -309,11 +309,11 @@ bool FrameBuilder::capMore() {
     return cap_->advance(entriesOfAStage());
 }
 
-bool FrameBuilder::capsLists() const {
+bool HostWork::capsLists() const {
     return inputs_.settings.list_cap > 0 && !on_device_ && light_grid_.lists();
 }
 
-bool FrameBuilder::assignMore() {
+bool HostWork::assignMore() {
     const auto& settings = inputs_.settings;
     if (assignment_) {
         return assignment_->advance(entriesOfAStage());
@@ -341,7 +341,7 @@ bool FrameBuilder::assignMore() {
     return true;
 }
 
-FramePlan FrameBuilder::plan(ViewEffects& effects) {
+FramePlan HostWork::plan(ViewEffects& effects) {
     const auto& settings = inputs_.settings;
     lists_.stats.why =
         needsLights(settings.debug.view) ? light_grid_.why() : "the debug view shows no light";
@@ -366,8 +366,7 @@ FramePlan FrameBuilder::plan(ViewEffects& effects) {
     return plan;
 }
 
-std::vector<io::WireVertex> FrameBuilder::buildWires(const FrameInputs& inputs,
-                                                     uint32_t& slice_count) {
+std::vector<io::WireVertex> HostWork::buildWires(const FrameInputs& inputs, uint32_t& slice_count) {
     const auto& settings = inputs.settings;
     const LightGrid* shown = &light_grid_;
     settings::Camera camera = settings.debug.grid_camera.value_or(settings.camera);
@@ -386,7 +385,7 @@ std::vector<io::WireVertex> FrameBuilder::buildWires(const FrameInputs& inputs,
     return clusterWires(shown->grid(), camera, settings.camera);
 }
 
-void FrameBuilder::buildDebug(const FrameInputs& inputs, const FramePlan& plan, double farthest_m) {
+void HostWork::buildDebug(const FrameInputs& inputs, const FramePlan& plan, double farthest_m) {
     const auto& settings = inputs.settings;
     DebugFacts facts{.light_count = static_cast<uint32_t>(lights_.lights.size()),
                      .lists = plan.lists,
@@ -405,21 +404,21 @@ void FrameBuilder::buildDebug(const FrameInputs& inputs, const FramePlan& plan, 
                                     shownBytes(plan.debug, plan.gbuffer_output_flags));
 }
 
-PairBound FrameBuilder::knownPairs(const FramePlan& plan) const {
+PairBound HostWork::knownPairs(const FramePlan& plan) const {
     if (!plan.lists || on_device_ || lists_.stats.overflowed) {
         return PairBound::uniform(lights_.lights.size());
     }
     return PairBound::lists(light_grid_.grid(), lists_);
 }
 
-uint64_t FrameBuilder::wireLines(const FramePlan& plan) const {
+uint64_t HostWork::wireLines(const FramePlan& plan) const {
     return plan.debug == settings::DebugView::kLightSpheres
                ? uint64_t{debug_.light_count} * io::kLinesOfALight
                : debug_.wires.size() / 2;
 }
 
 // With room for what moves between two frames; a frame that has more is drawn again.
-std::optional<PairBound> FrameBuilder::seenPairs() const {
+std::optional<PairBound> HostWork::seenPairs() const {
     const auto& grid = light_grid_.grid();
     if (!seen_lists_ || seen_lists_->grid != grid.size) {
         return {};
@@ -435,23 +434,24 @@ std::optional<PairBound> FrameBuilder::seenPairs() const {
     return PairBound::tiles(grid, longest);
 }
 
-FrameCosts FrameBuilder::costs(const FramePlan& plan,
-                               const settings::Size& shown,
-                               std::span<const ActiveEffect> effects,
-                               const UnitCosts& unit,
-                               const WorkLimits& work) {
-    FrameLoad load{.plan = plan,
-                   .draws = draws_,
-                   .drawn = drawn_,
-                   .shown = shown,
-                   .pairs = knownPairs(plan),
-                   .longest_loop = 0,
-                   .directional_count = static_cast<uint32_t>(lights_.directionals.size()),
-                   .overdraw = std::max(kUsualOverdraw, scene_.overdraw.value_or(0)),
-                   .peel_layers = peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
-                   .wire_lines = wireLines(plan),
-                   .wire_px = debug_.wire_px,
-                   .effects = effects};
+FrameCosts HostWork::costs(const FramePlan& plan,
+                           const settings::Size& shown,
+                           std::span<const ActiveEffect> effects,
+                           const UnitCosts& unit,
+                           const WorkLimits& work) {
+    CostInputs load{.plan = plan,
+                    .draws = draws_,
+                    .drawn = drawn_,
+                    .shown = shown,
+                    .pairs = knownPairs(plan),
+                    .longest_loop = 0,
+                    .directional_count = static_cast<uint32_t>(lights_.directionals.size()),
+                    .overdraw = std::max(kUsualOverdraw, scene_.overdraw.value_or(0)),
+                    .peel_layers =
+                        peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
+                    .wire_lines = wireLines(plan),
+                    .wire_px = debug_.wire_px,
+                    .effects = effects};
     const MaterialFlags forward_flags = ~plan.forward_unused_material_flags;
     for (const auto* groups : {&draws_.solid, &draws_.transparent}) {
         for (const DrawGroup& group : *groups) {
@@ -460,12 +460,12 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
         }
     }
     if (plan.visibility_shade || (plan.layers && plan.visibility)) {
-        load.lit_surfaces =
-            std::max(load.lit_surfaces,
-                     litSurfaces(pose_.dressing()->visibility().material_flags & forward_flags));
+        load.lit_surfaces = std::max(
+            load.lit_surfaces,
+            litSurfaces(pose_.material_set()->visibility().material_flags & forward_flags));
     }
     if (plan.visibility) {
-        const VisibilityScene& visible = pose_.dressing()->visibility();
+        const VisibilityScene& visible = pose_.material_set()->visibility();
         load.device_triangles = visible.triangle_count;
         load.resolve_count = visible.pipelines.bindless()
                                  ? 1
@@ -490,7 +490,7 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
     return {unit, std::move(load)};
 }
 
-void FrameBuilder::limitLists(const FrameCosts& costs, const WorkLimits& work, FrameLoad& load) {
+void HostWork::limitLists(const FrameCosts& costs, const WorkLimits& work, CostInputs& load) {
     const vk::Rect2D whole{{0, 0}, {drawn_.width_px, drawn_.height_px}};
     const double room = costs.pairsWithin(work.piece);
     const uint64_t longest = costs.lightsWithin(work.loop);
@@ -516,7 +516,7 @@ void FrameBuilder::limitLists(const FrameCosts& costs, const WorkLimits& work, F
     }
 }
 
-void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> effects) {
+void HostWork::gather(FrameUpload& upload, std::span<const ActiveEffect> effects) {
     upload.clear();
     blocks_ = {};
     const auto place = [&](size_t binding, auto span) {
@@ -561,7 +561,7 @@ void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> eff
     }
 }
 
-AssignOffsets FrameBuilder::gatherAssignment(FrameUpload& upload) const {
+AssignOffsets HostWork::gatherAssignment(FrameUpload& upload) const {
     const AssignData& data = device_lists_.data();
     return {.frame = upload.add(std::span<const io::AssignFrame>(data.frame)),
             .tables = upload.add(std::span<const double>(data.tables)),
@@ -570,7 +570,7 @@ AssignOffsets FrameBuilder::gatherAssignment(FrameUpload& upload) const {
             .spots = upload.add(std::span<const io::AssignSpot>(data.spots))};
 }
 
-UploadOffsets FrameBuilder::upload(FrameSlot& slot, std::span<const ActiveEffect> effects) {
+UploadOffsets HostWork::upload(FrameSlot& slot, std::span<const ActiveEffect> effects) {
     slot.upload.commit();
     for (const ActiveEffect& active : effects) {
         active.effect->prepare(slot, blocks_);
@@ -588,7 +588,7 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot, std::span<const ActiveEffect
     return offsets_;
 }
 
-void FrameBuilder::writeAssignment(FrameSlot& slot) {
+void HostWork::writeAssignment(FrameSlot& slot) {
     const auto& buffers = device_lists_.makeBuffers();
     blocks_[io::kListsBinding] = {.bytes = device_lists_.data().frame[0].cluster_count *
                                            sizeof(io::ClusterList),
@@ -602,18 +602,18 @@ void FrameBuilder::writeAssignment(FrameSlot& slot) {
     slot.assignment->write(buffers, device_lists_.data(), slot.upload.buffer(), assign_offsets_);
 }
 
-ListCapacity FrameBuilder::listCapacity() const {
+ListCapacity HostWork::listCapacity() const {
     // Kept for the next frame that has its lists made there.
     return on_device_                ? device_lists_.capacity()
            : device_lists_.buffers() ? device_lists_.buffers()->capacity
                                      : ListCapacity{};
 }
 
-uint64_t FrameBuilder::posedBytes() const {
+uint64_t HostWork::posedBytes() const {
     return scene_.poser() != nullptr ? PosedVertices::bytes(scene_) : 0;
 }
 
-uint64_t FrameBuilder::hostBytes() const {
+uint64_t HostWork::hostBytes() const {
     const auto kept = [](const auto& items) { return items.capacity() * sizeof(items[0]); };
     uint64_t bytes = kept(lists_.clusters) + kept(lists_.indices) + pose_.hostBytes();
     for (const auto* lights : {&lights_, &grown_, &wire_lights_}) {
@@ -623,7 +623,7 @@ uint64_t FrameBuilder::hostBytes() const {
     return bytes;
 }
 
-void FrameBuilder::letGo() {
+void HostWork::letGo() {
     lists_ = {};
     lights_ = {};
     grown_ = {};

@@ -1,4 +1,4 @@
-#include "render/scene/dressing.h"
+#include "render/scene/material_set.h"
 
 #include "render/scene/scene_resources.h"
 
@@ -18,11 +18,11 @@ SurfaceNeeds needsOf(const SceneResources& scene, const std::vector<DrawItem>& i
 
 } // namespace
 
-Dressing::Dressing(SceneResources& scene, std::vector<DrawItem> items_in)
+MaterialSet::MaterialSet(SceneResources& scene, std::vector<DrawItem> items_in)
     : items(std::move(items_in)), needs(needsOf(scene, items)),
       visibility_unusable(VisibilityScene::unusable(scene, items)), scene_(scene) {}
 
-VisibilityScene& Dressing::visibility() {
+VisibilityScene& MaterialSet::visibility() {
     if (!visibility_) {
         gpu::Uploader uploader(scene_.shared.device, kStagingBytes);
         visibility_ = std::make_unique<VisibilityScene>(scene_, items, uploader);

@@ -4,7 +4,7 @@
 
 #include "render/effects/effects.h"
 #include "render/frame/frame_slot.h"
-#include "render/frame_builder.h"
+#include "render/host_work.h"
 #include "render/memory_report.h"
 #include "render/renderer.h"
 
@@ -14,17 +14,17 @@
 
 namespace froxel::render {
 
-class FrameMaker {
+class ViewFrames {
   public:
-    FrameMaker(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work_limits)
-        : scene_(scene_in), work_(work_limits), builder_(scene_in, limits), effects_(scene_in),
+    ViewFrames(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work_limits)
+        : scene_(scene_in), work_(work_limits), host_work_(scene_in, limits), effects_(scene_in),
           memory_(scene_in.shared.memory) {}
 
     using Slots = std::vector<std::unique_ptr<FrameSlot>>;
 
-    ~FrameMaker() { scene_.shared.variants.forget(this); }
-    FrameMaker(const FrameMaker&) = delete;
-    FrameMaker& operator=(const FrameMaker&) = delete;
+    ~ViewFrames() { scene_.shared.variants.forget(this); }
+    ViewFrames(const ViewFrames&) = delete;
+    ViewFrames& operator=(const ViewFrames&) = delete;
 
     enum class Made : uint8_t {
         kFrame,  // in flight from now on
@@ -45,7 +45,7 @@ class FrameMaker {
     }
     // Whether what the device told of a completed frame's lists lets it be shown.
     [[nodiscard]] bool accepts(const FrameSlot& slot) {
-        return !slot.device_lists || builder_.acceptLists(*slot.assignment);
+        return !slot.device_lists || host_work_.acceptLists(*slot.assignment);
     }
     // The picture of a completed frame and what is known of it. Throws vk::SystemError.
     [[nodiscard]] RenderedFrame finish(FrameSlot& slot);
@@ -53,7 +53,7 @@ class FrameMaker {
 
     // Of the frame recorded last; null: none, or none of that.
     [[nodiscard]] const ViewTargets* targets() const { return targets_.get(); }
-    [[nodiscard]] Dressing& dressing() const { return *builder_.pose().dressing(); }
+    [[nodiscard]] MaterialSet& material_set() const { return *host_work_.pose().material_set(); }
     [[nodiscard]] const ViewEffects& effects() const { return effects_; }
 
   private:
@@ -86,9 +86,9 @@ class FrameMaker {
                                           const FrameInputs& asked,
                                           const Slots& slots);
     // Whether the view's targets hold the surfaces of the frame that was built.
-    [[nodiscard]] bool keepsSurfaces(const FramePlan& plan, const FrameInputs& asked) const;
+    [[nodiscard]] bool reusesSurfaces(const FramePlan& plan, const FrameInputs& asked) const;
     // Whether its vertices that bend stand as that frame has them.
-    [[nodiscard]] bool keepsPose(const FrameInputs& asked) const;
+    [[nodiscard]] bool reusesPose(const FrameInputs& asked) const;
     // What they hold once the frame that was recorded has run.
     void noteDrawn(const FramePlan& plan, const SurfacesDrawn& surfaces);
     void prepareTargets(FrameSlot& slot,
@@ -106,7 +106,7 @@ class FrameMaker {
     const WorkLimits work_;
     double piece_share_ = 1;
     WorkPace pace_;
-    FrameBuilder builder_;
+    HostWork host_work_;
     std::chrono::steady_clock::time_point started_; // what it builds
     double built_us_ = 0;                           // of the host, spent on that
     ViewEffects effects_;

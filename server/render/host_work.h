@@ -26,9 +26,9 @@ namespace froxel::render {
 class ViewEffects;
 
 // Keep one a viewer and build into it again: its buffers are reused.
-class FrameBuilder {
+class HostWork {
   public:
-    FrameBuilder(SceneResources& scene, const ListLimits& limits)
+    HostWork(SceneResources& scene, const ListLimits& limits)
         : scene_(scene), pose_(scene), device_lists_(scene.shared.device, limits) {}
 
     // Culls, evaluates lights, assigns them to clusters, lets effects look, plans: a stage at a
@@ -107,7 +107,7 @@ class FrameBuilder {
     [[nodiscard]] std::optional<PairBound> seenPairs() const;
     // Tells the device what to hold its lists against, since nobody knows them yet, and the frame's
     // load what they come to at most; `costs` are by what is known.
-    void limitLists(const FrameCosts& costs, const WorkLimits& work, FrameLoad& load);
+    void limitLists(const FrameCosts& costs, const WorkLimits& work, CostInputs& load);
     [[nodiscard]] uint64_t wireLines(const FramePlan& plan) const;
     [[nodiscard]] const cluster::GridCosts& gridCosts(const settings::ViewSettings& settings) const;
     void startCulling();

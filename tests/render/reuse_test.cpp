@@ -16,7 +16,7 @@ namespace {
 
 using settings::Renderer;
 
-class Kept : public SharedGpuTest {
+class Reuse : public SharedGpuTest {
   protected:
     static void TearDownTestSuite() {
         renderer_.reset();
@@ -64,7 +64,7 @@ class Kept : public SharedGpuTest {
         }
         const Picture picture = collectPixels(view);
         const Picture first = collectPixels(anew);
-        EXPECT_FALSE(first.stats.kept);
+        EXPECT_FALSE(first.stats.surfaces_reused);
         EXPECT_EQ(picture.rgba8, first.rgba8);
         EXPECT_EQ(differingFloats(picture, first), 0U);
         return picture;
@@ -86,14 +86,14 @@ std::string nameOf(Renderer kind) {
 } // namespace
 
 // Lights that move are no reason to draw surfaces again. All renderers that have a part to keep.
-TEST_F(Kept, MovingLights_BeforeSurfacesThatRest_DrawThemOnce) {
+TEST_F(Reuse, MovingLights_BeforeSurfacesThatRest_DrawThemOnce) {
     for (const auto path :
          {render::GeometryPath::kAuto, render::GeometryPath::kRaster,
           render::GeometryPath::kVisibility, render::GeometryPath::kComputeRaster}) {
         for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
             const auto renderer = static_cast<Renderer>(kind);
             SCOPED_TRACE(nameOf(renderer));
-            render::ViewRenderer view(Kept::renderer());
+            render::ViewRenderer view(Reuse::renderer());
             auto asked = inputs(renderer);
             asked.geometry = path;
             asked.depth_prepass = renderer != Renderer::kNaive;
@@ -106,16 +106,16 @@ TEST_F(Kept, MovingLights_BeforeSurfacesThatRest_DrawThemOnce) {
             asked.time_s = 4;
             const Picture fourth = expectAsAnew(view, asked);
             const bool keeps = renderer != Renderer::kNaive || hasPass(fourth, "shade");
-            EXPECT_EQ(third.stats.kept, keeps);
-            EXPECT_EQ(fourth.stats.kept, keeps);
+            EXPECT_EQ(third.stats.surfaces_reused, keeps);
+            EXPECT_EQ(fourth.stats.surfaces_reused, keeps);
             for (const char* pass :
                  {"depth_prepass", "gbuffer", "visibility", "raster_meshlets", "cull", "resolve"}) {
                 EXPECT_FALSE(keeps && hasPass(fourth, pass)) << pass;
             }
             asked.settings.camera.eye_world.x += 0.01;
-            EXPECT_FALSE(expectAsAnew(view, asked).stats.kept);
+            EXPECT_FALSE(expectAsAnew(view, asked).stats.surfaces_reused);
             asked.keep_surfaces = false;
-            EXPECT_FALSE(expectAsAnew(view, asked).stats.kept);
+            EXPECT_FALSE(expectAsAnew(view, asked).stats.surfaces_reused);
         }
     }
 }
@@ -167,7 +167,7 @@ bool leavesThePicture(std::string_view setting) {
 
 // Each row of the settings' table by itself, after a frame that was kept, and back. It does
 // something.
-TEST_F(Kept, AnySetting_ChangedAlone_GivesThePictureOfAFreshView) {
+TEST_F(Reuse, AnySetting_ChangedAlone_GivesThePictureOfAFreshView) {
     render::ViewRenderer view(renderer());
     auto base = inputs();
     base.keep_radiance = true;
@@ -187,7 +187,7 @@ TEST_F(Kept, AnySetting_ChangedAlone_GivesThePictureOfAFreshView) {
 }
 
 // Settings, time, camera and size go at random ways; most frames keep what they can.
-TEST_F(Kept, RandomWalk_EachFrame_IsThatOfAFreshView) {
+TEST_F(Reuse, RandomWalk_EachFrame_IsThatOfAFreshView) {
     std::mt19937 random(11);
     const auto one_of = [&](size_t count) { return random() % count; };
     render::ViewRenderer view(renderer());
@@ -198,7 +198,7 @@ TEST_F(Kept, RandomWalk_EachFrame_IsThatOfAFreshView) {
     auto asked = inputs();
     asked.keep_radiance = true;
     const auto base = asked.settings;
-    size_t kept_count = 0;
+    size_t reused_count = 0;
     const size_t steps = wholeGrids() ? 3000 : 200;
     for (size_t step = 0; step < steps; ++step) {
         SCOPED_TRACE(step);
@@ -217,7 +217,7 @@ TEST_F(Kept, RandomWalk_EachFrame_IsThatOfAFreshView) {
         }
         (void)drawPixels(other, elsewhere); // leaves its own in whatever views share
         const Picture picture = expectAsAnew(view, asked);
-        kept_count += picture.stats.kept ? 1U : 0U;
+        reused_count += picture.stats.surfaces_reused ? 1U : 0U;
         if (picture.rgba8.empty()) { // refused
             asked.settings = before;
         }
@@ -225,11 +225,11 @@ TEST_F(Kept, RandomWalk_EachFrame_IsThatOfAFreshView) {
             return;
         }
     }
-    EXPECT_GT(kept_count, steps / 8);
+    EXPECT_GT(reused_count, steps / 8);
 }
 
 // Maps of lights that rest stay, beside those of lights that move and while the camera moves.
-TEST_F(Kept, ShadowMaps_OfLightsThatRest_AreDrawnOnce) {
+TEST_F(Reuse, ShadowMaps_OfLightsThatRest_AreDrawnOnce) {
     render::ViewRenderer view(renderer());
     auto asked = inputs();
     asked.settings.camera = room().cameras[0].camera;
@@ -247,7 +247,7 @@ TEST_F(Kept, ShadowMaps_OfLightsThatRest_AreDrawnOnce) {
         asked.time_s += 0.1;
         const Picture picture = expectAsAnew(view, asked);
         EXPECT_EQ(picture.stats.shadows.map_count, maps);
-        EXPECT_EQ(picture.stats.shadows.kept_count, kept);
+        EXPECT_EQ(picture.stats.shadows.reused_count, kept);
         EXPECT_EQ(hasPass(picture, "shadows"), kept < maps);
     };
     place();
@@ -280,13 +280,13 @@ TEST_F(Kept, ShadowMaps_OfLightsThatRest_AreDrawnOnce) {
     asked.settings.lights.count = 3; // which move
     expect(19, 0);
     asked.time_s += 0.1;
-    const uint32_t kept = expectAsAnew(view, asked).stats.shadows.kept_count;
+    const uint32_t kept = expectAsAnew(view, asked).stats.shadows.reused_count;
     EXPECT_GE(kept, 1U); // the spot's, and what shows nothing
     EXPECT_LT(kept, 19U);
 }
 
 // A frame that was given up half drawn leaves nothing to keep.
-TEST_F(Kept, FrameGivenUp_IsDrawnAnew) {
+TEST_F(Reuse, FrameGivenUp_IsDrawnAnew) {
     render::ViewRenderer view(renderer(), {}, {Seconds(100), Seconds(1e-5)});
     auto asked = inputs();
     (void)expectAsAnew(view, asked);
@@ -296,9 +296,9 @@ TEST_F(Kept, FrameGivenUp_IsDrawnAnew) {
     ASSERT_TRUE(view.submitPiece());
     view.abandon();
     ASSERT_TRUE(view.collectPiece());
-    EXPECT_FALSE(expectAsAnew(view, asked).stats.kept);
+    EXPECT_FALSE(expectAsAnew(view, asked).stats.surfaces_reused);
     asked.settings.camera = room().cameras[0].camera;
-    EXPECT_FALSE(expectAsAnew(view, asked).stats.kept);
+    EXPECT_FALSE(expectAsAnew(view, asked).stats.surfaces_reused);
 }
 
 } // namespace froxel::test

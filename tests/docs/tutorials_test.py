@@ -1,0 +1,137 @@
+"""Runs the commands of README and of the tutorials, as a reader pastes them.
+
+Usage: tutorials_test.py ROOT FROXEL [unittest's arguments]. Blocks marked `sh` run in one shell, in a folder like a fresh
+clone whose build scripts find FROXEL built already. A block marked `sh server` is a server in another terminal: the
+one before is stopped, and this one must become ready. `sh scripts` names scripts that must be there, and `sh build`
+compiles: neither is run. Ports and /tmp are replaced by ones of this run.
+"""
+
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT, FROXEL = (Path(path).resolve() for path in sys.argv[1:3])
+SECONDS = 300
+BLOCK = re.compile(r"^```sh ?(\w*)\n(.*?)^```$", re.M | re.S)
+STUBS = {
+    "build.sh": 'mkdir -p build/release && ln -sf "$FROXEL" build/release/froxel',
+    "run.sh": 'exec "$FROXEL" serve --device cpu "$@"',
+    "test.sh": 'test -x "$FROXEL"',
+}
+PROLOGUE = """
+set -euo pipefail
+server=
+stop_server() { if [[ -n $server ]]; then kill -INT "$server" 2>/dev/null || true; wait "$server" || true; server=; fi; }
+trap stop_server EXIT
+wait_ready() {
+    until curl -fs "http://127.0.0.1:$ADMIN_PORT/readyz" >/dev/null; do
+        kill -0 "$server" # ends the run where the server has ended
+        sleep 0.1
+    done
+    curl -fs -o /dev/null "http://127.0.0.1:$PAGE_PORT/"
+}
+"""
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return str(probe.getsockname()[1])
+
+
+def blocks(page):
+    """(kind, commands) of each block of shell commands of a page."""
+    return BLOCK.findall((ROOT / page).read_text(encoding="utf-8"))
+
+
+def clone_into(folder):
+    """Copies the repository's files as they are now, with build scripts that build nothing."""
+    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    for name in filter(None, names.split("\0")):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / name, folder / name)
+    for command in (["init", "-q"], ["add", "-A"]):
+        subprocess.run(["git", *command], cwd=folder, check=True)
+    for name, commands in STUBS.items():
+        (folder / "deploy" / name).write_text(f"#!/usr/bin/env bash\n{commands}\n")
+    (folder / "build").mkdir()
+    (folder / "build/test").symlink_to(FROXEL.parent)
+
+
+def script_of(page, temporary, ports):
+    """The shell script of a page's blocks."""
+    lines = [PROLOGUE]
+    for kind, commands in blocks(page):
+        for port, here in ports.items():
+            commands = re.sub(rf"\b{port}\b", here, commands)
+        commands = commands.replace("/tmp/", f"{temporary}/")
+        if kind == "server":
+            lines.append(f"stop_server\n{commands.strip()} &\nserver=$!\nwait_ready\n")
+        elif not kind:
+            lines.append(commands)
+    return "\n".join(lines)
+
+
+class Tutorials(unittest.TestCase):
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.clone = tempfile.TemporaryDirectory()
+        clone_into(Path(cls.clone.name))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.clone.cleanup()
+
+    def run_page(self, page, before=""):
+        with tempfile.TemporaryDirectory() as temporary:
+            ports = {"8080": free_port(), "9090": free_port()}
+            environment = {**os.environ, "FROXEL": str(FROXEL), "FROXEL_PORT": ports["8080"],
+                           "FROXEL_ADMIN_BIND": f"127.0.0.1:{ports['9090']}", "PAGE_PORT": ports["8080"],
+                           "ADMIN_PORT": ports["9090"]}
+            script = script_of(page, temporary, ports).replace(PROLOGUE, PROLOGUE + before, 1)
+            shell = subprocess.Popen(["bash", "-c", script], cwd=self.clone.name, env=environment, text=True, errors="replace",
+                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+            try:
+                said, _ = shell.communicate(timeout=SECONDS)
+            except subprocess.TimeoutExpired:
+                os.killpg(shell.pid, signal.SIGKILL)
+                said, _ = shell.communicate()
+                self.fail(f"{page}: not done within {SECONDS} s:\n{said[-3000:]}")
+            self.assertEqual(shell.returncode, 0, f"{page}:\n{said[-3000:]}")
+            return said
+
+    def test_scripts_that_pages_name_are_there(self):
+        for page in ("README.md", *(str(path.relative_to(ROOT)) for path in (ROOT / "docs/tutorials").glob("*.md"))):
+            for script in re.findall(r"^\./(\S+)", "\n".join(text for _, text in blocks(page)), re.M):
+                self.assertTrue(os.access(ROOT / script, os.X_OK), f"{page}: {script}")
+
+    def test_readme(self):
+        self.run_page("README.md", "./deploy/build.sh\n./deploy/run.sh &\nserver=$!\nwait_ready\n")
+
+    def test_view_a_model(self):
+        self.assertIn("triangles", self.run_page("docs/tutorials/view-a-model.md"))
+
+    def test_run_a_server(self):
+        said = self.run_page("docs/tutorials/run-a-server.md")
+        self.assertIn("ready", said)
+        self.assertIn("froxel_session", said)
+        self.assertIn("event=drained", said)
+
+    def test_write_a_client(self):
+        self.assertIn("frame 3: ", self.run_page("docs/tutorials/write-a-client.md"))
+
+    def test_change_the_code(self):
+        self.assertIn("PASSED", self.run_page("docs/tutorials/change-the-code.md"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
