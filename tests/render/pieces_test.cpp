@@ -341,7 +341,7 @@ TEST_F(Pieces, FramesOverTheLimit_AreRefusedBeforeAnythingIsAllocated) {
     ASSERT_FALSE(begun);
     EXPECT_EQ(begun.error().code, ErrorCode::kTooLong);
     EXPECT_THAT(begun.error().message, ::testing::HasSubstr("all 1000000 lights"));
-    EXPECT_THAT(begun.error().message, ::testing::HasSubstr("at most 1 s"));
+    EXPECT_THAT(begun.error().message, ::testing::HasSubstr("a frame may take 1 s"));
     EXPECT_FALSE(drawPixels(view, inputs()).rgba8.empty());
 }
 

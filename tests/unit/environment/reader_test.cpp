@@ -83,7 +83,7 @@ TEST(Radiance, OtherFiles_AreRefused) {
     expectRefused(radianceFile("-Y 1 +X 2", kTwoPixels, "FORMAT=32-bit_rle_xyze\n"), ErrorCode::kIo,
                   "32-bit_rle_rgbe");
     expectRefused(radianceFile("-Y 2 +X 1", kTwoPixels), ErrorCode::kInvalidArgument,
-                  "1x2 pixels; right is");
+                  "1x2 pixels; expected");
     expectRefused(radianceFile("-Y 5000 +X 10000", ""), ErrorCode::kCapacity, "8192x4096");
     expectRefused(radianceFile("-Y 0 +X 0", ""), ErrorCode::kInvalidArgument, "0x0");
     expectRefused("", ErrorCode::kUnsupported, "neither");
@@ -157,7 +157,7 @@ TEST(Exr, SizesInTheHeader_AreNotBelieved) {
 
 TEST(Exr, OtherLayouts_AreRefused) {
     expectRefused(exrFile({.width = 3, .height = 2}, kRgb), ErrorCode::kInvalidArgument,
-                  "has 3x2 pixels; right is");
+                  "has 3x2 pixels; expected");
     expectRefused(exrFile({}, {{"R"}, {"G"}, {"Z"}}), ErrorCode::kUnsupported,
                   "channels G, R, Z; expected R, G and B");
     expectRefused(exrFile({}, {{"R", Imf::UINT}, {"G"}, {"B"}}), ErrorCode::kUnsupported,

@@ -117,7 +117,7 @@ TEST(PlanWords, Transparency_IsNamedWhereSomethingIsBlended) {
                 Contains(HasSubstr("up to 5 layers peeled")));
     settings.transparency = settings::Transparency::kWeighted;
     EXPECT_THAT(wordsOf(settings, {.transparent_visible = true}),
-                Contains(HasSubstr("weights of distance")));
+                Contains(HasSubstr("weighted by distance")));
 }
 
 TEST(PlanWords, Fog_SaysWhetherLightsAreScattered) {
@@ -125,7 +125,7 @@ TEST(PlanWords, Fog_SaysWhetherLightsAreScattered) {
     settings.fog.density = 0.1F;
     EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("no froxel volume")));
     const auto words = wordsOf(settings, {.local_lights = true});
-    EXPECT_THAT(words, Contains(HasSubstr("scattered in a froxel volume")));
+    EXPECT_THAT(words, Contains(HasSubstr("in a froxel volume")));
     EXPECT_THAT(words,
                 Contains("tone mapping in a separate pass, after the passes over the lit picture"));
 }
@@ -145,7 +145,7 @@ TEST(PlanWords, Environment_IsNamed) {
     EXPECT_THAT(wordsOf(settings, {}), Contains("environment: studio, replaces the ambient light"));
     EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("background"))));
     settings.environment.background = true;
-    EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("background: what is around")));
+    EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("background: a separate pass")));
 }
 
 TEST(PlanWords, Scene_CountsMaterials) {
