@@ -91,7 +91,7 @@ it('Gallery_NamesAreText', async () => {
 
 it('Link_ToASceneThatIsGone_SaysSoAndShowsTheFirst', async () => {
   const viewer = await pages.open(`${kStill}&scene=0123456789abcdef`);
-  await viewer.told('no scene of this server');
+  await viewer.told('not a scene of this server');
   expect(await viewer.page.locator('#scene-name').textContent()).toBe('Hall');
 });
 
