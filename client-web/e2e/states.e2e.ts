@@ -258,7 +258,7 @@ it('Draining', async () => {
 it('AnotherVersion_AsksForAReload', async () => {
   await openWithPicture();
   await route?.close({ code: 4001 });
-  await viewer.told('another version');
+  await viewer.told('different versions');
   await looksAsItShould('another_version');
 });
 
