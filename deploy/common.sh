@@ -21,7 +21,7 @@ build_packages=(
 run_packages=(mesa-vulkan-drivers)
 test_packages=(
     vulkan-validationlayers libgtest-dev libgmock-dev libbenchmark-dev
-    python3 python3-websockets python3-yaml openssl git ccache mold clang-format universal-ctags
+    python3 python3-websockets python3-yaml openssl curl git ccache mold clang-format universal-ctags
 )
 build_tools=(c++ cmake ninja pkg-config glslangValidator spirv-val protoc wasm2c node npm)
 
