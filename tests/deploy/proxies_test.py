@@ -27,6 +27,7 @@ import websockets.legacy.client  # the client that 10.4 (Debian 12) and 15 (Debi
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 import told_skips
+from ports import free_port
 from viewer_protocol import frame_id, make_certificate
 
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
@@ -52,12 +53,6 @@ DIRECT_S = 0.5
 SCENE = Path(__file__).with_name("triangle.gltf")  # its light moves, so that frames come; made at once
 DEPLOY = Path(__file__).resolve().parents[2] / "deploy"
 os.environ["PATH"] += ":/usr/sbin"
-
-
-def free_port():
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        return taken.getsockname()[1]
 
 
 def listens(port):

@@ -17,10 +17,20 @@ check_spelling() { # FILE...
     "$bin/cspell" --config "$here/cspell.json" --no-progress --no-summary --root "$out" "$@"
 }
 
+files_of() { # FOLDER... -- FIND'S TEST...: ours, as paths from the root
+    local folders=()
+    while [[ $1 != -- ]]; do folders+=("$1"); shift; done
+    find "${folders[@]}" \( -name node_modules -o -name build -o -name dist -o -name gen -o -name '.?*' \) -prune \
+        -o -type f \( "${@:2}" \) -print | sed 's|^\./||' | sort
+}
+
 cd "$root"
-mapfile -t documents < <(git ls-files '*.md')
-mapfile -t sources < <(git ls-files 'server/*.cpp' 'server/*.h' 'client-web/src/*.ts' 'client-web/report/*.ts' \
-    'client-web/*.html' 'client-web/report/*.html')
+mapfile -t documents < <(files_of . -- -name '*.md')
+mapfile -t sources < <(
+    files_of server -- -name '*.cpp' -o -name '*.h'
+    files_of client-web/src client-web/report -- -name '*.ts'
+    files_of client-web -- -name '*.html'
+)
 rm -rf "$out"
 mkdir -p "$out"
 

@@ -10,16 +10,19 @@ import os
 import re
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from ports import free_port
+
 ROOT, FROXEL = (Path(path).resolve() for path in sys.argv[1:3])
 SECONDS = 300
 BLOCK = re.compile(r"^```sh ?(\w*)\n(.*?)^```$", re.M | re.S)
+NOT_COPIED = shutil.ignore_patterns(".git", "build", "dist", "gen", "node_modules", "test-results", "__pycache__")
 STUBS = {
     "build.sh": 'mkdir -p build/release && ln -sf "$FROXEL" build/release/froxel',
     "run.sh": 'exec "$FROXEL" serve --device cpu "$@"',
@@ -40,12 +43,6 @@ wait_ready() {
 """
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return str(probe.getsockname()[1])
-
-
 def blocks(page):
     """(kind, commands) of each block of shell commands of a page."""
     return BLOCK.findall((ROOT / page).read_text(encoding="utf-8"))
@@ -53,10 +50,7 @@ def blocks(page):
 
 def clone_into(folder):
     """Copies the repository's files as they are now, with build scripts that build nothing."""
-    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    for name in filter(None, names.split("\0")):
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(ROOT / name, folder / name)
+    shutil.copytree(ROOT, folder, ignore=NOT_COPIED, dirs_exist_ok=True)
     for command in (["init", "-q"], ["add", "-A"]):
         subprocess.run(["git", *command], cwd=folder, check=True)
     for name, commands in STUBS.items():
@@ -93,7 +87,7 @@ class Tutorials(unittest.TestCase):
 
     def run_page(self, page, before=""):
         with tempfile.TemporaryDirectory() as temporary:
-            ports = {"8080": free_port(), "9090": free_port()}
+            ports = {"8080": str(free_port()), "9090": str(free_port())}
             environment = {**os.environ, "FROXEL": str(FROXEL), "FROXEL_PORT": ports["8080"],
                            "FROXEL_ADMIN_BIND": f"127.0.0.1:{ports['9090']}", "PAGE_PORT": ports["8080"],
                            "ADMIN_PORT": ports["9090"]}
