@@ -57,23 +57,23 @@ bool HostWork::choosesVisibility(const FrameInputs& inputs) {
     // Only the rasteriser writes one, and only it draws layers where lights are added up there.
     const bool second_target =
         extraFormat(inputs.settings.gbuffer,
-                    storesSpecular(inputs.settings, pose_.material_set()->needs.specular)) !=
+                    storesSpecular(inputs.settings, pose_.materialSet()->needs.specular)) !=
         vk::Format::eUndefined;
     const bool wanted =
         isForward(inputs.settings.renderer)
             ? stage == LightingStage::kCompute || (stage == LightingStage::kAuto && pays)
             : !second_target && (byIds(inputs.geometry) || pays) &&
                   (stage != LightingStage::kFragment ||
-                   !drawsLayers(inputs.settings, pose_.material_set()->needs.layers));
-    return wanted && pose_.material_set()->visibility_unusable.empty() && pose_.windsAsAtStart() &&
-           !pose_.material_set()->visibility().groups.empty();
+                   !drawsLayers(inputs.settings, pose_.materialSet()->needs.layers));
+    return wanted && pose_.materialSet()->visibility_unusable.empty() && pose_.windsAsAtStart() &&
+           !pose_.materialSet()->visibility().groups.empty();
 }
 
 bool HostWork::choosesComputeRaster(const FrameInputs& inputs) {
     const bool wanted =
         inputs.geometry == GeometryPath::kComputeRaster ||
         (inputs.geometry == GeometryPath::kAuto && !scene_.shared.device.traits().is_cpu);
-    return wanted && pose_.material_set()->visibility().compute_unusable.empty();
+    return wanted && pose_.materialSet()->visibility().compute_unusable.empty();
 }
 
 bool HostWork::prepass(const FrameInputs& inputs) const {
@@ -93,21 +93,21 @@ bool HostWork::prepass(const FrameInputs& inputs) const {
 
 bool HostWork::layersVisible() const {
     const auto has = [](MaterialFlags flags) { return (flags & io::kMaterialLayers) != 0; };
-    return visibility_ ? has(pose_.material_set()->visibility().material_flags)
+    return visibility_ ? has(pose_.materialSet()->visibility().material_flags)
                        : std::ranges::any_of(draws_.solid, has, &DrawGroup::material_flags);
 }
 
 FrameFacts HostWork::facts(const FrameInputs& inputs) const {
     const auto& traits = scene_.shared.device.traits();
     return {.wide_gbuffer = inputs.settings.shading == settings::ShadingModel::kLambert
-                                ? pose_.material_set()->needs.wide_lambert
-                                : pose_.material_set()->needs.wide_gbuffer,
-            .emission_exponent = pose_.material_set()->needs.emission_exponent,
-            .specular = pose_.material_set()->needs.specular,
-            .edges = pose_.material_set()->needs.edges,
+                                ? pose_.materialSet()->needs.wide_lambert
+                                : pose_.materialSet()->needs.wide_gbuffer,
+            .emission_exponent = pose_.materialSet()->needs.emission_exponent,
+            .specular = pose_.materialSet()->needs.specular,
+            .edges = pose_.materialSet()->needs.edges,
             .layers_visible = layersVisible(),
             .transparent_visible = !draws_.transparent.empty(),
-            .unlit_solid = pose_.material_set()->needs.unlit,
+            .unlit_solid = pose_.materialSet()->needs.unlit,
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),
             .areas = !lights_.areas.empty(),
@@ -214,7 +214,7 @@ void HostWork::startCulling() {
                           !visibility_, order, draws_);
             if (visibility_) {
                 placeInstances(pose_.instances(), settings.camera, draws_.rows, instances_);
-                orderMeshlets(pose_.material_set()->visibility(), draws_.rows, meshlet_order_);
+                orderMeshlets(pose_.materialSet()->visibility(), draws_.rows, meshlet_order_);
             }
         });
 }
@@ -460,12 +460,12 @@ FrameCosts HostWork::costs(const FramePlan& plan,
         }
     }
     if (plan.visibility_shade || (plan.layers && plan.visibility)) {
-        load.lit_surfaces = std::max(
-            load.lit_surfaces,
-            litSurfaces(pose_.material_set()->visibility().material_flags & forward_flags));
+        load.lit_surfaces =
+            std::max(load.lit_surfaces,
+                     litSurfaces(pose_.materialSet()->visibility().material_flags & forward_flags));
     }
     if (plan.visibility) {
-        const VisibilityScene& visible = pose_.material_set()->visibility();
+        const VisibilityScene& visible = pose_.materialSet()->visibility();
         load.device_triangles = visible.triangle_count;
         load.resolve_count = visible.pipelines.bindless()
                                  ? 1

@@ -242,7 +242,7 @@ Result<FrameWork> ViewRenderer::begin(const FrameInputs& inputs) {
     FROXEL_ASSERT(canSubmit(), "begin needs a free readback slot and no frame half submitted");
     FrameSlot* slot = impl_->freeSlot();
     // Held, so that the view later uses the one that was checked here.
-    const auto material_set = impl_->scene.material_set(inputs.settings.material_variant);
+    const auto material_set = impl_->scene.materialsOfVariant(inputs.settings.material_variant);
     if (auto able = canDraw(inputs, impl_->scene, *material_set); !able) {
         return able.error();
     }
@@ -373,7 +373,7 @@ Result<RenderedFrame> ViewRenderer::collect() {
 Result<Visibility> ViewRenderer::readVisibility(const scene::Scene& scene) {
     FROXEL_ASSERT(impl_->maker.targets(), "readVisibility needs a frame");
     try {
-        return copyVisibility(impl_->scene, impl_->maker.material_set(), *impl_->maker.targets(),
+        return copyVisibility(impl_->scene, impl_->maker.materialSet(), *impl_->maker.targets(),
                               scene);
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice,

@@ -287,7 +287,7 @@ Result<void> ViewFrames::recordBuilt(FrameSlot& slot,
     }
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
     prepareBlend(slot, plan);
-    slot.material_set = host_work_.pose().material_set();
+    slot.material_set = host_work_.pose().materialSet();
     const UploadOffsets offsets = host_work_.upload(slot, effects_.ofFrame());
     prepareParts(slot, plan, offsets);
     const Seconds fine = partOf(costs.total(), limits.piece * piece_share_);

@@ -53,7 +53,7 @@ class ViewFrames {
 
     // Of the frame recorded last; null: none, or none of that.
     [[nodiscard]] const ViewTargets* targets() const { return targets_.get(); }
-    [[nodiscard]] MaterialSet& material_set() const { return *host_work_.pose().material_set(); }
+    [[nodiscard]] MaterialSet& materialSet() const { return *host_work_.pose().materialSet(); }
     [[nodiscard]] const ViewEffects& effects() const { return effects_; }
 
   private:

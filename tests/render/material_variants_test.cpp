@@ -169,13 +169,13 @@ TEST_F(MaterialVariants, MaterialSet_GoesWithTheLastWhoHoldsIt) {
         inputs.settings.material_variant = 1;
         std::ignore = draw(first, inputs);
         std::ignore = draw(second, inputs);
-        seen = resources.material_set(1);
+        seen = resources.materialsOfVariant(1);
         EXPECT_EQ(seen.use_count(), 4) << "two views, each with a frame drawn in it";
         EXPECT_TRUE(seen.lock()->needs.blended);
-        EXPECT_FALSE(resources.material_set(2)->needs.layers);
+        EXPECT_FALSE(resources.materialsOfVariant(2)->needs.layers);
     }
     EXPECT_TRUE(seen.expired());
-    EXPECT_EQ(resources.material_set(0), resources.material_set(0));
+    EXPECT_EQ(resources.materialsOfVariant(0), resources.materialsOfVariant(0));
 }
 
 } // namespace froxel::test

@@ -9,7 +9,8 @@ namespace froxel::render {
 
 static_assert(sizeof(io::PoseJoint) == sizeof(motion::JointMatrix));
 
-ScenePose::ScenePose(SceneResources& scene) : scene_(scene), material_set_(scene.material_set(0)) {
+ScenePose::ScenePose(SceneResources& scene)
+    : scene_(scene), material_set_(scene.materialsOfVariant(0)) {
     if (scene.motion) {
         moved_ = std::unique_ptr<Moved>(new Moved{.playing = {},
                                                   .moment = {},
@@ -54,7 +55,7 @@ void ScenePose::wear(uint32_t material_variant) {
         return;
     }
     material_variant_ = material_variant;
-    material_set_ = scene_.material_set(material_variant);
+    material_set_ = scene_.materialsOfVariant(material_variant);
     if (moved_) {
         moved_->items = material_set_->items;
         placeItems();

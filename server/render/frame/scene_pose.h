@@ -18,10 +18,10 @@ class ScenePose {
   public:
     explicit ScenePose(SceneResources& scene);
 
-    // Shows the scene with that material variant's materials; see SceneResources::material_set().
-    // Spans handed out before end.
+    // Shows the scene with that material variant's materials; see
+    // SceneResources::materialsOfVariant(). Spans handed out before end.
     void wear(uint32_t material_variant);
-    [[nodiscard]] const std::shared_ptr<MaterialSet>& material_set() const { return material_set_; }
+    [[nodiscard]] const std::shared_ptr<MaterialSet>& materialSet() const { return material_set_; }
 
     // Stands where the clips have the scene then: a pure function of what plays. None: what
     // Motion::played says, at time_s. Spans handed out before end.

@@ -263,7 +263,7 @@ void SceneResources::keepVariantMaterials(const scene::Scene& scene,
     }
 }
 
-std::shared_ptr<MaterialSet> SceneResources::material_set(uint32_t material_variant) {
+std::shared_ptr<MaterialSet> SceneResources::materialsOfVariant(uint32_t material_variant) {
     if (material_variant == 0) {
         return undressed_;
     }

@@ -70,7 +70,7 @@ class SceneResources {
     }
     // That of a material variant, by its number (settings::ViewSettings). All who hold it share it;
     // with the last of them it goes, but for that of no variant.
-    [[nodiscard]] std::shared_ptr<MaterialSet> material_set(uint32_t material_variant);
+    [[nodiscard]] std::shared_ptr<MaterialSet> materialsOfVariant(uint32_t material_variant);
     // Throws vk::SystemError.
     [[nodiscard]] VisibilityPipelines& visibilityPipelines() const;
 
