@@ -10,26 +10,35 @@ import type { AxeResults } from 'axe-core';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { kSamplePath, sample } from '../test/report/fakes';
+import { kLoadSamplePath, kSamplePath, sample } from '../test/report/fakes';
 import { launch } from './chromium';
 import { until } from './viewer';
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const kTemplate = fileURLToPath(new URL('../dist/report.html', import.meta.url));
+const kLoadTemplate = fileURLToPath(new URL('../dist/load.html', import.meta.url));
 const kPlace = '<script type="application/json" id="results">null</script>';
 
 let browser: Browser;
 let folder: string;
 let filled: string;
+let loadFilled: string;
+
+/** A template of dist/ with the JSON of a run in it. */
+function fill(name: string, template: string, path: string): string {
+  const file = join(folder, name);
+  const parts = readFileSync(template, 'utf8').split(kPlace);
+  expect(parts).toHaveLength(2);
+  const results = readFileSync(path, 'utf8').replaceAll('<', '\\u003c');
+  writeFileSync(file, parts.join(kPlace.replace('null', () => results)));
+  return file;
+}
 
 beforeAll(async () => {
   browser = await launch();
   folder = mkdtempSync(join(tmpdir(), 'froxel-report-'));
-  filled = join(folder, 'report.html');
-  const parts = readFileSync(kTemplate, 'utf8').split(kPlace);
-  expect(parts).toHaveLength(2);
-  const results = readFileSync(kSamplePath, 'utf8').replaceAll('<', '\\u003c');
-  writeFileSync(filled, parts.join(kPlace.replace('null', () => results)));
+  filled = fill('report.html', kTemplate, kSamplePath);
+  loadFilled = fill('load.html', kLoadTemplate, kLoadSamplePath);
 });
 afterAll(async () => {
   await browser.close();
@@ -176,6 +185,29 @@ describe('report', () => {
   it('EmptyTemplate_SaysWhoFillsIt', async () => {
     const { page } = await open(kTemplate, 800, 'light');
     expect(await page.locator('#report').innerText()).toContain('froxel bench --report');
+    await page.context().close();
+  });
+
+  it.each([
+    [1240, 'light'],
+    [390, 'dark'],
+  ] as const)('LoadTest_%dPixels_%s_ShowsVerdictPlotsAndViewers', async (width, scheme) => {
+    const { page, complaints, fetched } = await open(loadFilled, width, scheme);
+    await until('the plots', async () => (await page.locator('.plot svg').count()) === 5);
+    expect(await page.locator('#head .warning').innerText()).toContain('broken requirement fps>=8: ');
+    expect(await page.locator('#requirements tbody tr').count()).toBe(4);
+    expect(await page.locator('#requirements td.bad').allInnerTexts()).toEqual(['broken']);
+    expect(await page.locator('#viewers tbody tr').count()).toBe(8);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width);
+    expect(await overlaps(page)).toEqual([]);
+    expect(complaints).toEqual([]);
+    expect(fetched).toEqual([pathToFileURL(loadFilled).href]);
+    await page.context().close();
+  });
+
+  it('LoadTemplate_Empty_SaysWhoFillsIt', async () => {
+    const { page } = await open(kLoadTemplate, 800, 'light');
+    expect(await page.locator('#report').innerText()).toContain('froxel load --report');
     await page.context().close();
   });
 });

@@ -1,5 +1,5 @@
-// The report of `froxel bench`: one file with script and style inside, beside the page's other files.
-// The bench command puts its JSON into the file's place for results.
+// The reports of `froxel bench` and, with `--mode load`, of `froxel load`: each one file with script and
+// style inside, beside the page's other files. The command puts its JSON into the file's place for results.
 import { fileURLToPath } from 'node:url';
 
 import { defineConfig } from 'vite';
@@ -7,13 +7,13 @@ import { viteSingleFile } from 'vite-plugin-singlefile';
 
 const folder = fileURLToPath(new URL('.', import.meta.url));
 
-export default defineConfig({
+export default defineConfig(({ mode }) => ({
   root: folder,
   plugins: [viteSingleFile({ removeViteModuleLoader: true })],
   build: {
     target: 'es2022',
     outDir: `${folder}../dist`,
     emptyOutDir: false, // the page's files are there
-    rollupOptions: { input: `${folder}report.html` },
+    rollupOptions: { input: `${folder}${mode === 'load' ? 'load' : 'report'}.html` },
   },
-});
+}));

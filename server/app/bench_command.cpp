@@ -2,6 +2,7 @@
 
 #include "app/environment_file.h"
 #include "app/output_file.h"
+#include "app/report_page.h"
 #include "app/row_command.h"
 #include "app/scene_camera.h"
 #include "app/scene_source.h"
@@ -99,19 +100,6 @@ startOf(const BenchOptions& options, const scene::Scene& scene, const gpu::Devic
     result.error_options = errorOptionsOf(options, device.is_cpu);
     result.base = {options.settings, viewsOf(options, scene), scene.material_variants};
     return result;
-}
-
-// Told before anything is measured.
-std::string readTemplate(const BenchOptions& options) {
-    const auto root = findWebRoot(options.web_root);
-    if (root.empty()) {
-        throw StartupError({ErrorCode::kIo,
-                            "--report: the built page was not found; run ./deploy/build.sh, or "
-                            "name its folder with --web-root"});
-    }
-    auto page = readText(root / "report.html").value();
-    bench::fillReport(page, nullptr).value();
-    return page;
 }
 
 int listPresets(const BenchOptions& options) {
@@ -222,7 +210,7 @@ int runBench(const BenchOptions& options) try {
     std::string page;
     if (!options.report.empty()) {
         requireFolderOf(options.report);
-        page = readTemplate(options);
+        page = readReportPage(options.web_root, "report.html");
     }
     if (!options.join.empty()) {
         return joinFiles(options, page);

@@ -4,7 +4,17 @@
 #include "app/command_builder.h"
 #include "app/load_command.h"
 
+#include <cstdint>
+#include <string>
+
 namespace froxel::app {
+
+// Of --script: what stands before ":SHARE", and the share; without one it is 1.
+struct ScriptName {
+    std::string name;
+    uint32_t share = 1;
+};
+[[nodiscard]] ScriptName scriptNameOf(const std::string& text);
 
 // `options` outlives the parse.
 void addLoadArguments(CommandBuilder& command, LoadOptions& options);

@@ -1,8 +1,12 @@
 // What `froxel load` tells: pure functions of what its viewers measured. The JSON:
 //
-//   schema            "froxel.load.v1"
+//   schema            "froxel.load.v2"
 //   froxel            this build's version
-//   url, script, viewers, seconds, ramp_s       as given; of a script's file the name alone
+//   url, room, seconds, ramp_s, codec, video_kbps   as given
+//   scripts           [{name, share}]; of a file the name alone
+//   think             {least_s, most_s}, or null
+//   stages            [{seconds, viewers}] as given, or null
+//   viewers           that joined or tried to, in all
 //   size              {width_px, height_px}, lights: as given; null: the server's own
 //   served            [{viewers, server_version, device, scene, triangles, size, lights,
 //                     lights_move, renderer, codec, quality, video_kbps}, ...]: what the server
@@ -11,13 +15,18 @@
 //   host              threads (hardware threads of this machine, not of the server's)
 //   measured_s        how long all viewers measured
 //   stopped           whether a signal ended it early
-//   bounds            {max_latency_ms, min_fps}: as given, or null
-//   broken            one line: which viewer failed or broke a bound; null: none
+//   ended_early       whether --stop-early did
+//   requirements      [{requirement, measured, held}]; measured is null without a sample
+//   broken            one line: which viewer failed, what was not held; null: all is well
 //   all               of all viewers together: samples pooled, counts and rates added up
-//   each              [...]: the same of every viewer, in their order, and
+//   series            [...]: of each second, load_series.h
+//   each              [...]: the same as of all, of every viewer, in the order in which they
+//   joined, and
 //     failure         one line, or null
+//     refused         whether the failure is that the server had no place for it
 //     first_frame_ms  from connecting to the first frame's last byte; null: there was none
-//     stall_ms        95 % of the measured time no frame had been due for longer (load_verdict.h)
+//     stall_ms        95 % of the measured time no frame had been due for longer
+//     (load/requirement.h)
 //
 // all and each[]:
 //   frames, frames_per_s
@@ -39,7 +48,7 @@
 //   client_dropped    frames that a newer one overtook before they were painted
 //   commands, commands_skipped   skipped: cameras not sent, since others waited for the socket
 //   commands_unshown  of both, those that no frame showed until the end
-//   refusals, refusals_by_code, refusal   Error messages, {ErrorCode: count} of them, and the first
+//   errors, errors_by_code, first_error   Error messages, {ErrorCode: count} of them, and the first
 //                     one's text or null
 //
 // Each *_ms is {count, min, median, p95, p99, max, mean} in milliseconds, nearest ranks
@@ -47,25 +56,36 @@
 #pragma once
 
 #include "app/load_command.h"
+#include "app/load_series.h"
+#include "app/load_verdict.h"
 #include "load/load_run.h"
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace froxel::app {
 
+// What was asked for: the members of the report from `froxel` to `host`.
+[[nodiscard]] nlohmann::ordered_json loadSetup(const LoadOptions& options,
+                                               const load::RunOptions& run);
+
+// What was measured, each different one once, with the viewers that were served so.
+[[nodiscard]] nlohmann::ordered_json servedKinds(const load::RunResult& result);
+[[nodiscard]] nlohmann::ordered_json outcomesOf(const std::vector<load::Outcome>& outcomes);
+
 [[nodiscard]] nlohmann::ordered_json loadReport(const LoadOptions& options,
-                                                const load::RunResult& result);
+                                                const load::RunOptions& run,
+                                                const load::RunResult& result,
+                                                const LoadVerdict& verdict,
+                                                const std::vector<SeriesRow>& series);
 
-// For a person: all viewers together, then one by one where they are few. Empty where none came
-// to measure.
-[[nodiscard]] std::string loadTable(const load::RunResult& result);
+// For a person: all viewers together, then one by one where they are few, then the requirements.
+// Empty where none came to measure.
+[[nodiscard]] std::string loadTable(const load::RunResult& result, const LoadVerdict& verdict);
 
-// "12 of 30 s, 16 viewers, 512 frames/s, 81.2 Mbit/s"; rates since `before`.
-[[nodiscard]] std::string loadProgress(const LoadOptions& options,
-                                       const load::RunProgress& now,
-                                       const load::RunProgress& before);
+// "12 s, 16 viewers, 0 joining, 0 failed, 512 frames/s, 81.2 Mbit/s".
+[[nodiscard]] std::string loadProgress(const load::RunOptions& run, const load::RunSecond& second);
 
 } // namespace froxel::app

@@ -1,23 +1,27 @@
-// Whether what the viewers of `froxel load` measured is within its bounds. Pure functions.
+// Whether what the viewers of `froxel load` measured is as required. Pure functions.
 #pragma once
 
-#include "app/load_command.h"
 #include "load/load_run.h"
+#include "load/requirement.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace froxel::app {
 
-// The least time such that for 95 % of the measured time no frame had been due for longer: the
-// percentile that a stall raises by its length, however few frames and commands are in it. 0: no
-// frame was due, or nothing was measured.
-[[nodiscard]] double stallMs(const load::Measured& measured);
+struct LoadVerdict {
+    std::optional<std::string> failure; // one line; none: no viewer failed, or only as it may
+    std::vector<load::Outcome> outcomes;
+    // Also of `failure`.
+    [[nodiscard]] bool held() const;
+};
 
-// One line where a viewer failed or a bound is broken. --max-latency-ms is of the worst of a
-// viewer's 95th percentiles of latency and reaction and its stallMs(); of a watcher's the last
-// alone, and who controls and measured no latency breaks any.
-[[nodiscard]] std::optional<std::string> loadVerdict(const LoadOptions& options,
-                                                     const load::RunResult& result);
+// A viewer that failed or was refused is a failure, unless a requirement bounds the share of those.
+[[nodiscard]] LoadVerdict loadVerdict(const std::vector<load::Requirement>& requirements,
+                                      const load::RunResult& result);
+
+// One line of all that is wrong; none: nothing is.
+[[nodiscard]] std::optional<std::string> brokenLine(const LoadVerdict& verdict);
 
 } // namespace froxel::app

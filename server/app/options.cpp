@@ -35,8 +35,9 @@ constexpr settings::Range<double> kPairsRange{"pairs", 0.0, 1e18};
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 success, 1 other error, 2 usage, 3 scene, 4 device, 5 address in use, 6 device "
-    "lost while serving. bench also exits with 1 if a picture is inexact or a compared run is "
-    "slower, and load if a viewer failed or a bound was broken. Both exit with 130 after a signal.";
+    "lost while serving, 99 broken requirement of load. bench also exits with 1 if a picture is "
+    "inexact or a compared run is slower, and load if a viewer failed. Both exit with 130 after a "
+    "signal.";
 
 // What the subcommands fill. The one that was given copies its own to `result`.
 struct Targets {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <latch>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -18,6 +19,9 @@ namespace {
 
 namespace asio = boost::asio;
 using namespace std::chrono_literals;
+
+// What is left at the end of a run is a second of its own from this on.
+constexpr auto kLeastSecond = 500ms;
 
 // A thread and the viewers that live on it: no lock is needed between them.
 struct Crew {
@@ -29,30 +33,49 @@ struct Crew {
 
 class Run {
   public:
-    Run(const RunOptions& options, const std::stop_token& stop)
-        : options_(options), stop_(stop), crews_(options.thread_count) {
-        FROXEL_ASSERT(options.viewer_count > 0 && options.thread_count > 0, "an empty run");
-        for (uint32_t index = 0; index < options.viewer_count; ++index) {
+    using EachSecond = std::function<bool(const RunSecond&)>;
+    Run(const RunOptions& options, const std::stop_token& stop, const EachSecond& each_second)
+        : options_(options), stop_(stop), each_second_(each_second), crews_(options.thread_count) {
+        FROXEL_ASSERT(!options.visits.empty() && options.thread_count > 0, "an empty run");
+        std::vector<uint32_t> shares;
+        for (const ScriptShare& script : options.scripts) {
+            shares.push_back(script.share);
+        }
+        const auto scripts = dealOut(shares, options.visits.size());
+        for (uint32_t index = 0; index < options.visits.size(); ++index) {
             Crew& crew = crews_[index % crews_.size()];
             crew.viewers.push_back(std::make_shared<Viewer>(
-                crew.io.get_executor(), options_.viewer, index + 1, counters_,
+                crew.io.get_executor(), options_.viewer,
+                ViewerPlan{index + 1, options.scripts[scripts[index]].script, options.visits[index],
+                           !options.measures_together},
                 [this](Viewer::Event event) { onEvent(event); }));
         }
     }
 
-    RunResult run(const std::function<void(const RunProgress&)>& each_second) {
-        const TimePoint start = Clock::now();
-        for (size_t index = 0; index < crews_.size(); ++index) {
-            startCrew(crews_[index], index, start);
+    RunResult run() {
+        start_ = Clock::now();
+        last_look_ = start_;
+        next_look_ = start_ + 1s;
+        for (Crew& crew : crews_) {
+            startCrew(crew);
         }
-        // Patience is the viewers' own: each has a first frame or fails in its time.
-        watch(start, TimePoint::max(), each_second, [this] { return joined_ == count(); });
-        const TimePoint begin = Clock::now();
-        measuring_ = true;
-        forAll([begin](Viewer& viewer) { viewer.begin(begin); });
+        TimePoint begin = start_;
+        measuring_ = !options_.measures_together;
+        if (options_.measures_together) {
+            // Patience is the viewers' own: each has a first frame or fails in its time.
+            watch(TimePoint::max(), [this] { return joined_ == count(); });
+            begin = Clock::now();
+            measuring_ = true;
+            forAll([begin](Viewer& viewer) { viewer.begin(begin); });
+        }
         const auto length = std::chrono::duration_cast<Clock::duration>(options_.seconds);
-        watch(begin, begin + length, each_second, [this] { return ended_ == count(); });
+        watch(begin + length, [this] { return ended_ == count(); });
         const TimePoint end = Clock::now();
+        if (end - last_look_ >= kLeastSecond) {
+            const bool ended_early = ended_early_;
+            look();
+            ended_early_ = ended_early; // it is over anyway
+        }
         forAll([end](Viewer& viewer) { viewer.end(end); });
         {
             std::unique_lock lock(mutex_);
@@ -62,18 +85,15 @@ class Run {
             crew.io.stop(); // what is left are Beast's timers for connections that have ended
             crew.thread.join();
         }
-        return {collect(), Seconds(end - begin).count(), stop_.stop_requested()};
+        return {collect(), Seconds(end - begin).count(), stop_.stop_requested(), ended_early_};
     }
 
   private:
-    [[nodiscard]] uint32_t count() const { return options_.viewer_count; }
+    [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(options_.visits.size()); }
 
-    void startCrew(Crew& crew, size_t crew_index, TimePoint start) {
-        for (size_t place = 0; place < crew.viewers.size(); ++place) {
-            const auto index = static_cast<double>(crew_index + place * crews_.size());
-            const Seconds wait = options_.ramp * (index / count());
-            crew.viewers[place]->connectAt(start +
-                                           std::chrono::duration_cast<Clock::duration>(wait));
+    void startCrew(Crew& crew) {
+        for (const auto& viewer : crew.viewers) {
+            viewer->start(start_);
         }
         crew.thread = std::jthread([&crew] {
             nameThread("viewers");
@@ -98,24 +118,49 @@ class Run {
         }
     }
 
-    // Until `done`, `end` or a stop, whichever comes first.
+    // Until `done`, `end`, a stop, or where each_second_ says so, whichever comes first.
     template <class Done>
-    void watch(TimePoint start,
-               TimePoint end,
-               const std::function<void(const RunProgress&)>& each_second,
-               Done done) {
+    void watch(TimePoint end, Done done) {
         std::unique_lock lock(mutex_);
-        for (TimePoint tick = start + 1s;; tick += 1s) {
-            changed_.wait_until(lock, stop_, std::min(tick, end), done);
+        while (!ended_early_) {
+            changed_.wait_until(lock, stop_, std::min(next_look_, end), done);
             if (done() || stop_.stop_requested() || Clock::now() >= end) {
                 return;
             }
-            const RunProgress progress{measuring_, Clock::now() - start, joined_,
-                                       ended_,     counters_.frames,     counters_.bytes};
             lock.unlock();
-            each_second(progress);
+            look();
             lock.lock();
         }
+    }
+
+    // The viewers' changes, each taken on its own thread.
+    void look() {
+        const TimePoint now = Clock::now();
+        RunSecond second;
+        {
+            const std::lock_guard lock(mutex_);
+            second.measuring = measuring_;
+            second.ended = ended_;
+            second.joined = joined_;
+        }
+        second.elapsed = now - start_;
+        second.length = now - last_look_;
+        last_look_ = now;
+        next_look_ = now + 1s;
+        second.changes.resize(count());
+        std::latch taken(static_cast<ptrdiff_t>(crews_.size()));
+        for (size_t crew_index = 0; crew_index < crews_.size(); ++crew_index) {
+            asio::post(crews_[crew_index].io, [this, crew_index, now, &second, &taken] {
+                const Crew& crew = crews_[crew_index];
+                for (size_t place = 0; place < crew.viewers.size(); ++place) {
+                    second.changes[crew_index + place * crews_.size()] =
+                        crew.viewers[place]->takeChange(now);
+                }
+                taken.count_down();
+            });
+        }
+        taken.wait();
+        ended_early_ = !each_second_(second);
     }
 
     // In the order in which they were made: round the crews.
@@ -131,8 +176,12 @@ class Run {
 
     const RunOptions& options_;
     const std::stop_token& stop_;
-    LiveCounters counters_;
+    const EachSecond& each_second_;
+    TimePoint start_;
+    TimePoint last_look_;
+    TimePoint next_look_;
     bool measuring_ = false;
+    bool ended_early_ = false;
     std::mutex mutex_;
     std::condition_variable_any changed_;
     uint32_t joined_ = 0;
@@ -144,8 +193,20 @@ class Run {
 
 RunResult runLoad(const RunOptions& options,
                   const std::stop_token& stop,
-                  const std::function<void(const RunProgress&)>& each_second) {
-    return Run(options, stop).run(each_second);
+                  const std::function<bool(const RunSecond&)>& each_second) {
+    return Run(options, stop, each_second).run();
+}
+
+ViewerResult pool(const RunResult& result) {
+    ViewerResult all;
+    for (const ViewerResult& viewer : result.viewers) {
+        all.measured.add(viewer.measured);
+        all.received_bytes += viewer.received_bytes;
+        all.sent_bytes += viewer.sent_bytes;
+        all.key_frames += viewer.key_frames;
+    }
+    all.measured.seconds = result.seconds;
+    return all;
 }
 
 } // namespace froxel::load

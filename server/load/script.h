@@ -44,13 +44,27 @@ struct Scenes {
 using Recording = std::shared_ptr<const std::vector<Step>>;
 using ScriptChoice = std::variant<Orbit, Idle, Storm, Scenes, Recording>;
 
+// How long viewers rest after each pass of their script: a circle of Orbit, kStormPass, one scene,
+// a recording. Evenly spread between the two, the same in every run.
+struct ThinkTime {
+    Seconds least{0};
+    Seconds most{0};
+};
+
 inline constexpr Seconds kOrbitPeriod{10};
 inline constexpr uint32_t kOrbitRate = 60;
 inline constexpr uint32_t kStormRate = 200;
+inline constexpr Seconds kStormPass{10};
 inline constexpr Seconds kSceneStay{2};
 
-// `viewer` counts from 1; viewers of one script start at different points of it.
-[[nodiscard]] std::unique_ptr<Script>
-makeScript(const ScriptChoice& choice, const v1::Welcome& welcome, uint32_t viewer);
+// `viewer` counts from 1; viewers of one script start at different points of it. With a time to
+// think, a recording is played again and again.
+[[nodiscard]] std::unique_ptr<Script> makeScript(const ScriptChoice& choice,
+                                                 const v1::Welcome& welcome,
+                                                 uint32_t viewer,
+                                                 const std::optional<ThinkTime>& think = {});
+
+// Whether it never stops sending commands.
+[[nodiscard]] bool isRestless(const ScriptChoice& choice, const std::optional<ThinkTime>& think);
 
 } // namespace froxel::load

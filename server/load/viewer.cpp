@@ -44,19 +44,24 @@ std::string resourceFor(const Target& target, const std::string& room) {
 
 Viewer::Viewer(asio::any_io_executor executor,
                const ViewerOptions& options,
-               uint32_t number,
-               LiveCounters& counters,
+               ViewerPlan plan,
                std::function<void(Event)> report)
-    : options_(options), number_(number), counters_(counters), report_(std::move(report)),
-      resolver_(executor),
+    : options_(options), plan_(std::move(plan)), report_(std::move(report)), resolver_(executor),
       stream_(CountedTcp(executor), options.target.tls ? options.tls.get() : nullptr),
-      deadline_(executor), refresh_(executor), step_timer_(executor) {}
+      deadline_(executor), leave_(executor), refresh_(executor), step_timer_(executor) {}
 
 Viewer::~Viewer() = default;
 
-void Viewer::connectAt(TimePoint when) {
-    deadline_.expires_at(when);
+void Viewer::start(TimePoint run_start) {
+    const auto at = [run_start](Seconds time) {
+        return run_start + std::chrono::duration_cast<Clock::duration>(time);
+    };
+    deadline_.expires_at(at(plan_.visit.join));
     deadline_.async_wait(guarded([](Viewer& self) { self.connect(); }));
+    if (plan_.visit.leave) {
+        leave_.expires_at(at(*plan_.visit.leave));
+        leave_.async_wait(guarded([](Viewer& self) { self.end(Clock::now()); }));
+    }
 }
 
 void Viewer::connect() {
@@ -146,9 +151,14 @@ void Viewer::upgrade() {
             if (failure == websocket::error::upgrade_declined) {
                 const bool full =
                     self->response_.result() == beast::http::status::service_unavailable;
-                self->fail("no WebSocket at " + printable(self->options_.target.resource) +
-                           ": HTTP " + numberText(self->response_.result_int()) +
-                           (full ? ", the server is full or going down" : ""));
+                const std::string why = "no WebSocket at " +
+                                        printable(self->options_.target.resource) + ": HTTP " +
+                                        numberText(self->response_.result_int());
+                if (full) {
+                    self->refuse(why + ", the server is full or going down");
+                } else {
+                    self->fail(why);
+                }
             } else if (failure) {
                 self->fail("the WebSocket handshake failed: " + failure.message());
             } else {
@@ -161,7 +171,7 @@ void Viewer::onUpgraded() {
     v1::ClientMessage message;
     message.mutable_hello()->set_protocol_major(protocol::kMajor);
     message.mutable_hello()->set_protocol_minor(protocol::kMinor);
-    message.mutable_hello()->set_client_name("froxel load " + numberText(number_));
+    message.mutable_hello()->set_client_name("froxel load " + numberText(plan_.number));
     for (const settings::CodecRow& row : settings::kCodecRows) {
         if (row.announced) {
             message.mutable_hello()->add_codecs(
@@ -170,7 +180,7 @@ void Viewer::onUpgraded() {
     }
     message.mutable_hello()->set_room(options_.room);
     if (const auto& tokens = options_.tokens; !tokens.empty()) {
-        message.mutable_hello()->set_token(tokens[(number_ - 1) % tokens.size()]);
+        message.mutable_hello()->set_token(tokens[(plan_.number - 1) % tokens.size()]);
     }
     send(std::move(message), Clock::now());
     read();
@@ -200,7 +210,6 @@ void Viewer::onRead(Code failure) {
     }
     const auto data = buffer_.data();
     const protocol::ByteSpan message(static_cast<const std::byte*>(data.data()), data.size());
-    counters_.bytes += message.size();
     const auto kind = protocol::binaryKind(message);
     if (stream_.got_text() || !kind) {
         fail(kind ? "a text message in answer to binary ones" : kind.error().message);
@@ -241,12 +250,14 @@ void Viewer::onFrame(protocol::ByteSpan message, TimePoint now) {
         fail(noted.error().message);
         return;
     }
-    ++counters_.frames;
     if (!result_.first_frame_ms && header.applied_seq() >= setup_seq_) {
         result_.first_frame_ms =
             std::chrono::duration<double, std::milli>(now - connecting_since_).count();
         deadline_.cancel();
         report_(Event::kJoined);
+        if (plan_.measures_alone) {
+            begin(now);
+        }
     }
     paintLater(header.frame_id(), now);
 }
@@ -260,9 +271,15 @@ void Viewer::onMessage(const v1::ServerMessage& message, TimePoint now) {
         meter_.onScene(message.scene_changed().scene().id());
         onState(message.scene_changed().state(), now);
     } else if (message.has_error()) {
-        meter_.onRefusal(message.error());
-        if (!result_.first_frame_ms) { // refused before it saw anything: capacity, or its size
-            fail("refused: " + printable(message.error().message(), 200));
+        meter_.onError(message.error());
+        if (result_.first_frame_ms) {
+            return;
+        }
+        const std::string why = "refused: " + printable(message.error().message(), 200);
+        if (message.error().code() == v1::ERROR_CODE_CAPACITY) {
+            refuse(why);
+        } else {
+            fail(why);
         }
     }
 }
@@ -321,13 +338,13 @@ void Viewer::begin(TimePoint now) {
     if (ended_ || !result_.first_frame_ms) {
         return;
     }
-    const bool endless = std::holds_alternative<Orbit>(options_.script) ||
-                         std::holds_alternative<Storm>(options_.script);
-    meter_.begin(now, endless);
+    meter_.begin(now, isRestless(plan_.script, options_.think));
     result_.served = servedOf(*welcome_, state_);
     received_before_ = traffic().receivedBytes();
+    received_taken_ = received_before_;
     sent_before_ = traffic().sentBytes();
-    script_ = makeScript(controls() ? options_.script : ScriptChoice(Idle{}), *welcome_, number_);
+    script_ = makeScript(controls() ? plan_.script : ScriptChoice(Idle{}), *welcome_, plan_.number,
+                         options_.think);
     script_start_ = now;
     playNext();
 }
@@ -390,7 +407,7 @@ void Viewer::endMeasuring(TimePoint now) {
 }
 
 void Viewer::end(TimePoint now) {
-    if (ended_) {
+    if (ended_ || closing_) {
         return;
     }
     endMeasuring(now);
@@ -421,9 +438,15 @@ void Viewer::fail(const std::string& why) {
     finish();
 }
 
+void Viewer::refuse(const std::string& why) {
+    result_.refused = true;
+    fail(why);
+}
+
 void Viewer::finish() {
     ended_ = true;
     deadline_.cancel();
+    leave_.cancel();
     refresh_.cancel();
     step_timer_.cancel();
     resolver_.cancel();
@@ -432,6 +455,24 @@ void Viewer::finish() {
         report_(Event::kJoined);
     }
     report_(Event::kEnded);
+}
+
+ViewerChange Viewer::takeChange(TimePoint now) {
+    ViewerChange change;
+    change.number = plan_.number;
+    change.joining = connecting_since_ != TimePoint() && !ended_ && !result_.first_frame_ms;
+    change.watching = result_.first_frame_ms.has_value() && !closing_ && !ended_;
+    change.failure = result_.failure;
+    change.refused = result_.refused;
+    change.first_frame_ms = result_.first_frame_ms;
+    change.measured = meter_.takeNew(now);
+    if (meter_.counting()) {
+        change.waiting = meter_.waiting(now);
+    }
+    const uint64_t received =
+        meter_.counting() ? traffic().receivedBytes() : received_before_ + result_.received_bytes;
+    change.received_bytes = received - std::exchange(received_taken_, received);
+    return change;
 }
 
 ViewerResult Viewer::result() const {

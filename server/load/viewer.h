@@ -7,6 +7,7 @@
 #include "load/picture_check.h"
 #include "load/script.h"
 #include "load/served.h"
+#include "load/stages.h"
 #include "load/target.h"
 #include "load/viewer_meter.h"
 #include "protocol/framing.h"
@@ -17,7 +18,6 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
-#include <atomic>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -28,7 +28,7 @@ namespace froxel::load {
 
 struct ViewerOptions {
     Target target;
-    ScriptChoice script;
+    std::optional<ThinkTime> think;
     std::optional<v1::SetSize> size;
     std::optional<uint32_t> light_count;
     std::optional<v1::SetEncoding> encoding;
@@ -37,21 +37,37 @@ struct ViewerOptions {
     std::shared_ptr<boost::asio::ssl::context> tls; // for a target that asks for it
 };
 
-// Shared by all viewers, for whoever watches the run. Any thread.
-struct LiveCounters {
-    std::atomic<uint64_t> frames = 0;
-    std::atomic<uint64_t> bytes = 0;
-};
-
 struct ViewerResult {
     Measured measured;
     std::optional<Served> served;       // as measuring began; none: it never did
     bool controlled = true;             // false: watched in a room, and said nothing of the script
     std::optional<std::string> failure; // one line; none: all went well
+    bool refused = false;               // the failure: the server had no place for this one
     std::optional<double> first_frame_ms; // from connecting; with --size and --lights applied
     uint64_t received_bytes = 0;          // of the connection while measuring, all framing included
     uint64_t sent_bytes = 0;
     uint64_t key_frames = 0; // of video, since connecting
+};
+
+// One viewer since the last look at it.
+struct ViewerChange {
+    uint32_t number = 0;
+    bool joining = false;  // has no first frame yet
+    bool watching = false; // has one, and has not ended
+    std::optional<std::string> failure;
+    bool refused = false;
+    std::optional<double> first_frame_ms;
+    Measured measured;           // since then
+    Samples waiting;             // what end() would add now
+    uint64_t received_bytes = 0; // since then, of what is measured
+};
+
+// What one viewer does, and when; see ViewerResult for what it says.
+struct ViewerPlan {
+    uint32_t number = 1; // from 1, each its own
+    ScriptChoice script;
+    Visit visit;
+    bool measures_alone = false; // from its first frame on; false: begin() says when
 };
 
 // Everything runs on `executor`, which must be serial; so do the calls.
@@ -66,19 +82,20 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     enum class Event : uint8_t { kJoined, kEnded };
     Viewer(boost::asio::any_io_executor executor,
            const ViewerOptions& options,
-           uint32_t number,
-           LiveCounters& counters,
+           ViewerPlan plan,
            std::function<void(Event)> report);
     ~Viewer();
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
 
-    void connectAt(TimePoint when);
+    // Connects and leaves as it is planned.
+    void start(TimePoint run_start);
     // Measuring and the script begin.
     void begin(TimePoint now);
     // Measuring ends, and the connection is closed. kEnded follows if it did not come yet.
     void end(TimePoint now);
 
+    [[nodiscard]] ViewerChange takeChange(TimePoint now);
     // After kEnded.
     [[nodiscard]] ViewerResult result() const;
 
@@ -125,6 +142,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     void write();
     void endMeasuring(TimePoint now);
     void fail(const std::string& why);
+    void refuse(const std::string& why);
     void finish();
     [[nodiscard]] CountedTcp& tcp() { return stream_.next_layer().next_layer(); }
     [[nodiscard]] ByteCounter& traffic() { return tcp().rate_policy(); }
@@ -134,14 +152,14 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     [[nodiscard]] bool controls() const;
 
     const ViewerOptions& options_;
-    const uint32_t number_;
-    LiveCounters& counters_;
+    const ViewerPlan plan_;
     const std::function<void(Event)> report_;
     boost::asio::ip::tcp::resolver resolver_;
     Stream stream_;
     boost::beast::websocket::response_type response_;
     boost::beast::flat_buffer buffer_;
     boost::asio::steady_timer deadline_; // to connect at, for the first frame, for the close
+    boost::asio::steady_timer leave_;
     boost::asio::steady_timer refresh_;
     boost::asio::steady_timer step_timer_;
 
@@ -162,6 +180,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     ViewerMeter meter_;
     ViewerResult result_;
     uint64_t received_before_ = 0;
+    uint64_t received_taken_ = 0; // by takeChange()
     uint64_t sent_before_ = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace froxel::load {
 namespace {
@@ -32,6 +33,20 @@ bool shows(const v1::ClientMessage& said) {
     }
 }
 
+constexpr std::array kCounts = {&Counts::frames,           &Counts::frame_bytes,
+                                &Counts::server_dropped,   &Counts::client_dropped,
+                                &Counts::commands,         &Counts::commands_skipped,
+                                &Counts::commands_unshown, &Counts::errors};
+
+void subtract(Counts& from, const Counts& before) {
+    for (const auto count : kCounts) {
+        from.*count -= before.*count;
+    }
+    for (const auto& [code, count] : before.errors_by_code) {
+        from.errors_by_code[code] -= count;
+    }
+}
+
 bool setsClock(const v1::SetLights& lights) {
     return lights.has_time_s() || lights.has_speed() || lights.has_animate();
 }
@@ -52,20 +67,49 @@ void ViewerMeter::begin(TimePoint now, bool restless) {
     unseen_.clear();
     dropped_before_ = dropped_now_;
     measured_ = {};
+    taken_ = {};
+    taken_seconds_ = 0;
+    taken_samples_ = {};
 }
 
 void ViewerMeter::end(TimePoint now) {
     counting_ = false;
     measured_.seconds = Seconds(now - began_).count();
     measured_.server_dropped = dropped_now_ - dropped_before_;
-    if (const auto since = dueSince()) {
-        measured_.samples.interval_ms.push_back(msOf(now - *since));
-    }
     measured_.commands_unshown = unseen_.size();
-    for (const Unseen& command : unseen_) {
-        measured_.samples.reaction_ms.push_back(msOf(now - command.sent));
-    }
+    measured_.samples.add(waiting(now));
     measured_.samples.age_ms = ages_.all();
+}
+
+Samples ViewerMeter::waiting(TimePoint now) const {
+    Samples samples;
+    if (const auto since = dueSince()) {
+        samples.interval_ms.push_back(msOf(now - *since));
+    }
+    for (const Unseen& command : unseen_) {
+        samples.reaction_ms.push_back(msOf(now - command.sent));
+    }
+    return samples;
+}
+
+Measured ViewerMeter::takeNew(TimePoint now) {
+    if (counting_) {
+        measured_.server_dropped = dropped_now_ - dropped_before_;
+    }
+    const Counts before = std::exchange(taken_, measured_);
+    Measured fresh;
+    static_cast<Counts&>(fresh) = measured_;
+    subtract(fresh, before);
+    const double seconds = counting_ ? Seconds(now - began_).count() : measured_.seconds;
+    fresh.seconds = seconds - std::exchange(taken_seconds_, seconds);
+    fresh.first_error = measured_.first_error;
+    for (size_t index = 0; index < kSampleSeries.size(); ++index) {
+        const auto& all = measured_.samples.*kSampleSeries[index].samples;
+        const size_t known = std::exchange(taken_samples_[index], all.size());
+        (fresh.samples.*kSampleSeries[index].samples)
+            .assign(all.begin() + static_cast<ptrdiff_t>(known), all.end());
+    }
+    return fresh;
 }
 
 std::optional<TimePoint> ViewerMeter::dueSince() const {
@@ -193,20 +237,42 @@ Result<void> ViewerMeter::onFrame(const v1::FrameHeader& header,
 }
 
 void ViewerMeter::addStages(const v1::FrameHeader& header, std::optional<double> latency_ms) {
-    const auto add = [this](Stage stage, double time_ms) {
-        measured_.samples.stage_ms[static_cast<size_t>(stage)].push_back(time_ms);
-    };
-    add(Stage::kRender, msOfUs(header.render_us()));
-    add(Stage::kEncodeWait, msOfUs(header.encode_wait_us()));
-    add(Stage::kEncode, msOfUs(header.encode_us()));
-    add(Stage::kSendWait, msOfUs(header.send_wait_us()));
+    Samples& samples = measured_.samples;
+    samples.render_ms.push_back(msOfUs(header.render_us()));
+    samples.encode_wait_ms.push_back(msOfUs(header.encode_wait_us()));
+    samples.encode_ms.push_back(msOfUs(header.encode_us()));
+    samples.send_wait_ms.push_back(msOfUs(header.send_wait_us()));
     if (header.has_gpu_us()) {
-        measured_.samples.gpu_ms.push_back(msOfUs(header.gpu_us()));
+        samples.gpu_ms.push_back(msOfUs(header.gpu_us()));
     }
     if (latency_ms) {
-        add(Stage::kQueue, msOfUs(header.queue_us()));
-        add(Stage::kNetwork, *latency_ms - msOfUs(header.queue_us()) - stagesMs(header));
+        samples.queue_ms.push_back(msOfUs(header.queue_us()));
+        samples.network_ms.push_back(*latency_ms - msOfUs(header.queue_us()) - stagesMs(header));
     }
+}
+
+void Samples::add(const Samples& other) {
+    for (const SampleSeries& series : kSampleSeries) {
+        auto& to = this->*series.samples;
+        const auto& from = other.*series.samples;
+        to.insert(to.end(), from.begin(), from.end());
+    }
+}
+
+void Measured::add(const Measured& other) {
+    samples.add(other.samples);
+    for (const auto count : kCounts) {
+        this->*count += other.*count;
+    }
+    for (const auto& [code, count] : other.errors_by_code) {
+        errors_by_code[code] += count;
+    }
+    for (const auto& size : {other.smallest, other.largest}) {
+        if (size) {
+            addSize(*size);
+        }
+    }
+    first_error = first_error ? first_error : other.first_error;
 }
 
 void Measured::addSize(const PictureSize& size) {
@@ -222,7 +288,7 @@ void ViewerMeter::onFrameDropped() {
     measured_.client_dropped += counting_ ? 1 : 0;
 }
 
-void ViewerMeter::onRefusal(const v1::Error& error) {
+void ViewerMeter::onError(const v1::Error& error) {
     // The last of this number: cameras that were skipped have that of the next one sent.
     const auto refused = std::find_if(unseen_.rbegin(), unseen_.rend(), [&](const Unseen& one) {
         return one.seq == error.ref_seq();
@@ -231,9 +297,10 @@ void ViewerMeter::onRefusal(const v1::Error& error) {
         unseen_.erase(std::next(refused).base());
     }
     if (counting_) {
-        ++measured_.refusals[error.code()];
-        if (!measured_.refusal) {
-            measured_.refusal = printable(error.message(), 200);
+        ++measured_.errors;
+        ++measured_.errors_by_code[error.code()];
+        if (!measured_.first_error) {
+            measured_.first_error = printable(error.message(), 200);
         }
     }
 }

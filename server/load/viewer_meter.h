@@ -42,22 +42,44 @@
 
 namespace froxel::load {
 
-// The server's stages, in order; FrameHeader says what each is. kQueue only with a new command.
-enum class Stage : uint8_t { kQueue, kRender, kEncodeWait, kEncode, kSendWait, kNetwork };
-inline constexpr std::array kStageNames = {
-    std::string_view("queue"),  std::string_view("render"),    std::string_view("encode_wait"),
-    std::string_view("encode"), std::string_view("send_wait"), std::string_view("network")};
-
 // Samples of one viewer, in the order of its frames; what frames did not end comes last.
 struct Samples {
     std::vector<double> latency_ms;
     std::vector<double> reaction_ms;
     std::vector<double> age_ms;
     std::vector<double> interval_ms;
-    std::array<std::vector<double>, kStageNames.size()> stage_ms;
+    // The server's stages as in FrameHeader; queue and network only with a new command.
+    std::vector<double> queue_ms;
+    std::vector<double> render_ms;
+    std::vector<double> encode_wait_ms;
+    std::vector<double> encode_ms;
+    std::vector<double> send_wait_ms;
+    std::vector<double> network_ms;
     std::vector<double> gpu_ms;       // a part of the render stage, where it is known
     std::vector<double> timer_lag_ms; // how late this process sent a command
+
+    void add(const Samples& other);
 };
+
+// All of them, for what treats them alike.
+struct SampleSeries {
+    std::string_view name;
+    std::vector<double> Samples::*samples;
+    bool is_stage = false;
+};
+inline constexpr std::array kSampleSeries = {
+    SampleSeries{"latency", &Samples::latency_ms},
+    SampleSeries{"reaction", &Samples::reaction_ms},
+    SampleSeries{"age", &Samples::age_ms},
+    SampleSeries{"interval", &Samples::interval_ms},
+    SampleSeries{"queue", &Samples::queue_ms, true},
+    SampleSeries{"render", &Samples::render_ms, true},
+    SampleSeries{"encode_wait", &Samples::encode_wait_ms, true},
+    SampleSeries{"encode", &Samples::encode_ms, true},
+    SampleSeries{"send_wait", &Samples::send_wait_ms, true},
+    SampleSeries{"network", &Samples::network_ms, true},
+    SampleSeries{"gpu", &Samples::gpu_ms},
+    SampleSeries{"timer_lag", &Samples::timer_lag_ms}};
 
 struct PictureSize {
     uint32_t width_px = 0;
@@ -66,9 +88,8 @@ struct PictureSize {
     bool operator==(const PictureSize&) const = default;
 };
 
-struct Measured {
-    Samples samples; // age_ms from end() on
-    double seconds = 0;
+// What adds up, of several viewers and over time.
+struct Counts {
     uint64_t frames = 0;
     uint64_t frame_bytes = 0;      // encoded pictures and their headers
     uint64_t server_dropped = 0;   // replaced by newer ones before sending
@@ -76,13 +97,21 @@ struct Measured {
     uint64_t commands = 0;         // sent, but acknowledgements
     uint64_t commands_skipped = 0; // cameras not sent since others waited for the socket
     uint64_t commands_unshown = 0; // sent or skipped, and shown by no frame until the end
-    std::map<v1::ErrorCode, uint64_t> refusals; // Error messages
-    std::optional<std::string> refusal;         // the first one's text, made printable
-    std::optional<PictureSize> smallest;        // of the frames
+    uint64_t errors = 0;           // Error messages
+    std::map<v1::ErrorCode, uint64_t> errors_by_code;
+};
+
+struct Measured : Counts {
+    Samples samples; // age_ms from end() on
+    double seconds = 0;
+    std::optional<std::string> first_error; // its text, made printable
+    std::optional<PictureSize> smallest;    // of the frames
     std::optional<PictureSize> largest;
 
     // Of a frame.
     void addSize(const PictureSize& size);
+    // Of another viewer, or of a later time of the same one; all but `seconds`.
+    void add(const Measured& other);
     [[nodiscard]] double framesPerSecond() const {
         return seconds > 0 ? static_cast<double>(frames) / seconds : 0;
     }
@@ -111,12 +140,16 @@ class ViewerMeter {
     onFrame(const v1::FrameHeader& header, size_t bytes, uint64_t sent_seq, TimePoint now);
     // A newer frame was there before this one was painted.
     void onFrameDropped();
-    void onRefusal(const v1::Error& error);
+    void onError(const v1::Error& error);
     // The scene that is shown from now on. To choose it once more calls off what was chosen since,
     // and no frame shows that.
     void onScene(const std::string& id);
 
     [[nodiscard]] const Measured& measured() const { return measured_; }
+    // What was measured since the last call, or since begin(). Ages come at the end alone.
+    [[nodiscard]] Measured takeNew(TimePoint now);
+    // Samples that end() would add now: of a frame that is due, and of commands that wait.
+    [[nodiscard]] Samples waiting(TimePoint now) const;
 
   private:
     // Since when a frame should have come; none: none is due.
@@ -145,6 +178,9 @@ class ViewerMeter {
     uint64_t dropped_before_ = 0;
     uint64_t dropped_now_ = 0;
     Measured measured_;
+    Counts taken_; // by takeNew(), as are these:
+    double taken_seconds_ = 0;
+    std::array<size_t, kSampleSeries.size()> taken_samples_{};
 };
 
 } // namespace froxel::load

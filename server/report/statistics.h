@@ -21,6 +21,9 @@ struct Summary {
     double mean = 0;
 };
 
+// The nearest rank of a percentile above 0 and up to 100. At least one sample, all finite.
+[[nodiscard]] double percentileOf(std::vector<double> samples, double percent);
+
 // At least one sample, all finite.
 [[nodiscard]] Summary summarize(std::vector<double> samples);
 

@@ -14,6 +14,8 @@ import {
 export const kSamplePath = fileURLToPath(
   new URL('../../../tests/bench/results/lavapipe_hall.json', import.meta.url),
 );
+/** A run of `froxel load` with stages, on lavapipe. */
+export const kLoadSamplePath = fileURLToPath(new URL('load_sample.json', import.meta.url));
 export const sample = (): Results => readResults(readFileSync(kSamplePath, 'utf8'));
 
 const summary = (median: number): NonNullable<Row['gpu_us']> => ({

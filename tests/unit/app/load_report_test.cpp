@@ -1,10 +1,17 @@
+#include "app/load_capacity.h"
+#include "app/load_early_stop.h"
+#include "app/load_junit.h"
 #include "app/load_report.h"
+#include "app/load_series.h"
 #include "app/load_verdict.h"
+#include "app/output_file.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace froxel::app {
 namespace {
@@ -31,11 +38,20 @@ load::ViewerResult failed(const std::string& why) {
 }
 
 load::RunResult run(std::vector<load::ViewerResult> viewers) {
-    return {std::move(viewers), 2, false};
+    return {std::move(viewers), 2, false, false};
+}
+
+nlohmann::ordered_json reportOf(const LoadOptions& options, const load::RunResult& result) {
+    load::RunOptions run_options;
+    for (const std::string& script : options.scripts) {
+        run_options.scripts.push_back(
+            {std::filesystem::path(script).filename().string(), load::Idle{}, 1});
+    }
+    return loadReport(options, run_options, result, loadVerdict({}, result), {});
 }
 
 TEST(LoadReport, Figures_OfEachAndAll_AreThose) {
-    const auto report = loadReport({}, run({viewer(0), viewer(100)}));
+    const auto report = reportOf({}, run({viewer(0), viewer(100)}));
     const auto& each = report["each"];
     EXPECT_EQ(each[0]["latency_ms"]["p95"], 94);
     EXPECT_EQ(each[0]["frames_per_s"], 50);
@@ -49,7 +65,7 @@ TEST(LoadReport, Figures_OfEachAndAll_AreThose) {
 }
 
 TEST(LoadReport, NoSample_IsNull) {
-    const auto report = loadReport({}, run({failed("it broke")}));
+    const auto report = reportOf({}, run({failed("it broke")}));
     EXPECT_EQ(report["all"]["latency_ms"], nullptr);
     EXPECT_EQ(report["all"]["jitter_ms"], nullptr);
     EXPECT_EQ(report["each"][0]["failure"], "it broke");
@@ -67,8 +83,8 @@ TEST(LoadReport, Served_SaysWhatWasMeasured_EachOnce) {
     other.served->device = "llvmpipe";
     other.measured.smallest = load::PictureSize{640, 360};
     LoadOptions options;
-    options.script = "/home/someone/drag.jsonl";
-    const auto report = loadReport(options, run({one, other, one, failed("it broke")}));
+    options.scripts = {"/home/someone/drag.jsonl"};
+    const auto report = reportOf(options, run({one, other, one, failed("it broke")}));
     ASSERT_EQ(report["served"].size(), 2U);
     const auto& served = report["served"][0];
     EXPECT_EQ(served["viewers"], 2);
@@ -82,107 +98,206 @@ TEST(LoadReport, Served_SaysWhatWasMeasured_EachOnce) {
     EXPECT_EQ(report["all"]["largest_picture"]["height_px"], 720);
     EXPECT_EQ(report["all"]["commands_unshown"], 9);
     EXPECT_EQ(report["each"][3]["largest_picture"], nullptr);
-    EXPECT_EQ(report["script"], "drag.jsonl");
+    EXPECT_EQ(report["scripts"][0]["name"], "drag.jsonl");
     EXPECT_EQ(report.dump().find("/home"), std::string::npos);
 }
 
-TEST(LoadVerdict, WithinBounds_IsNone) {
-    LoadOptions options;
-    options.max_latency_ms = 94;
-    options.min_fps = 50;
-    EXPECT_EQ(loadVerdict(options, run({viewer(0)})), std::nullopt);
+std::vector<load::Requirement> required(const std::string& text) {
+    return load::parseRequirements(text).value();
 }
 
-TEST(LoadVerdict, Broken_NamesTheWorstViewer) {
-    LoadOptions options;
-    options.max_latency_ms = 93;
-    EXPECT_EQ(loadVerdict(options, run({viewer(0), viewer(40), viewer(7)})),
-              "3 of 3 viewers broke --max-latency-ms 93: viewer 2 has p95 134.0 ms");
-    options.max_latency_ms.reset();
-    options.min_fps = 51;
-    auto slow = viewer(0);
-    slow.measured.frames = 10;
-    EXPECT_EQ(loadVerdict(options, run({viewer(0), slow})),
-              "2 of 2 viewers broke --min-fps 51: viewer 2 has 5.0 frames/s");
+TEST(LoadVerdict, Held_HasNoBrokenLine) {
+    const auto verdict = loadVerdict(required("latency.p95<=94, fps>=50"), run({viewer(0)}));
+    EXPECT_TRUE(verdict.held());
+    EXPECT_EQ(brokenLine(verdict), std::nullopt);
 }
 
-TEST(LoadVerdict, NoLatency_BreaksAnyBound) {
-    LoadOptions options;
-    options.max_latency_ms = 1000;
-    auto still = viewer(0);
-    still.measured.samples.latency_ms.clear();
-    EXPECT_EQ(loadVerdict(options, run({viewer(0), still})),
-              "1 of 2 viewers broke --max-latency-ms 1000: viewer 2 measured no latency");
-}
-
-// 60 frames a second for 10 s, then none for 20 s.
-load::ViewerResult frozen() {
-    load::ViewerResult result;
-    load::Measured& measured = result.measured;
-    measured.seconds = 30;
-    measured.frames = 600;
-    measured.samples.latency_ms.assign(600, 5);
-    measured.samples.interval_ms.assign(600, 1000.0 / 60);
-    measured.samples.interval_ms.push_back(20'000);
-    return result;
-}
-
-TEST(LoadVerdict, Stall_IsHowLongMoreThanATwentiethOfTheTimeWaited) {
-    EXPECT_NEAR(stallMs(frozen().measured), 18'500, 1e-6);
-    EXPECT_NEAR(stallMs(viewer(0).measured), 19.6, 1e-9) << "0.1 of 2 s lies beyond it";
-    EXPECT_EQ(stallMs({}), 0);
-}
-
-TEST(LoadVerdict, ServerThatFreezes_BreaksTheBound_ThoughItsLatenciesWereShort) {
-    LoadOptions options;
-    options.max_latency_ms = 1000;
-    EXPECT_EQ(loadVerdict(options, run({viewer(0), frozen()})),
-              "1 of 2 viewers broke --max-latency-ms 1000: viewer 2 stalled for 18500.0 ms");
-    auto watcher = frozen();
-    watcher.controlled = false;
-    watcher.measured.samples.latency_ms.clear();
-    EXPECT_NE(loadVerdict(options, run({watcher})), std::nullopt) << "a watcher as well";
-    watcher.measured.samples.interval_ms.pop_back();
-    EXPECT_EQ(loadVerdict(options, run({watcher})), std::nullopt);
-}
-
-TEST(LoadVerdict, Commands_ThatWait_BreakTheBound) {
-    LoadOptions options;
-    options.max_latency_ms = 1000;
-    auto slow = viewer(0);
-    slow.measured.samples.reaction_ms.assign(90, 40);
-    slow.measured.samples.reaction_ms.insert(slow.measured.samples.reaction_ms.end(), 10, 1500);
-    EXPECT_EQ(loadVerdict(options, run({slow})),
-              "1 of 1 viewers broke --max-latency-ms 1000: viewer 1 has a p95 reaction of "
-              "1500.0 ms");
+TEST(LoadVerdict, Broken_IsNamedWithWhatWasMeasured) {
+    const auto verdict =
+        loadVerdict(required("latency.p95<90, fps>=50, stall<10"), run({viewer(0)}));
+    EXPECT_FALSE(verdict.held());
+    EXPECT_EQ(brokenLine(verdict),
+              "broken requirement latency.p95<90: 94; broken requirement stall<10: 19.6");
 }
 
 TEST(LoadVerdict, Failures_AreCountedAndTheFirstNamed) {
-    EXPECT_EQ(loadVerdict({}, run({viewer(0), failed("it broke"), failed("it, too")})),
+    EXPECT_EQ(brokenLine(loadVerdict({}, run({viewer(0), failed("it broke"), failed("it, too")}))),
               "2 of 3 viewers failed: viewer 2: it broke");
 }
 
+TEST(LoadVerdict, ShareThatMayFail_IsNoFailure) {
+    auto refused = failed("full");
+    refused.refused = true;
+    EXPECT_EQ(brokenLine(loadVerdict(required("refused<=50%"), run({viewer(0), refused}))),
+              std::nullopt);
+    EXPECT_EQ(brokenLine(loadVerdict(required("failed<=50%"), run({viewer(0), refused}))),
+              "1 of 2 viewers failed: viewer 2: full");
+    EXPECT_EQ(brokenLine(loadVerdict(required("refused<50%"), run({viewer(0), refused}))),
+              "broken requirement refused<50%: 0.5");
+}
+
+TEST(LoadJunit, Requirements_AreTestCases) {
+    const std::string xml =
+        junitOf(loadVerdict(required("latency.p95<90, fps>=50"), run({viewer(0)})), 2);
+    EXPECT_NE(xml.find(R"(tests="3" failures="1" time="2.000")"), std::string::npos) << xml;
+    EXPECT_NE(xml.find(R"(name="fps&gt;=50"/>)"), std::string::npos) << xml;
+    EXPECT_NE(xml.find(R"(<failure message="latency.p95&lt;90: 94"/>)"), std::string::npos) << xml;
+}
+
+load::RunSecond second(double elapsed_s, std::vector<load::ViewerChange> changes) {
+    load::RunSecond now;
+    now.measuring = true;
+    now.elapsed = Seconds(elapsed_s);
+    now.length = Seconds(1);
+    now.changes = std::move(changes);
+    return now;
+}
+
+load::ViewerChange watching(double latency_ms, int frames) {
+    load::ViewerChange change;
+    change.watching = true;
+    change.received_bytes = 125'000;
+    change.measured.seconds = 1;
+    change.measured.frames = static_cast<uint64_t>(frames);
+    change.measured.samples.latency_ms.assign(static_cast<size_t>(frames), latency_ms);
+    return change;
+}
+
+TEST(LoadSeries, Row_CountsViewersAndAddsThemUp) {
+    load::ViewerChange joining;
+    joining.joining = true;
+    load::ViewerChange refused;
+    refused.failure = "full";
+    refused.refused = true;
+    auto waits = watching(0, 0);
+    waits.waiting.interval_ms = {1500};
+    const auto row =
+        seriesRowOf(second(3, {watching(20, 30), watching(40, 10), joining, refused, waits}));
+    EXPECT_EQ(valueIn(row, "elapsed_s"), 3);
+    EXPECT_EQ(valueIn(row, "viewers"), 3);
+    EXPECT_EQ(valueIn(row, "joining"), 1);
+    EXPECT_EQ(valueIn(row, "refused"), 1);
+    EXPECT_EQ(valueIn(row, "failed"), 0);
+    EXPECT_EQ(valueIn(row, "frames_per_s"), 40);
+    EXPECT_EQ(valueIn(row, "mbit_per_s"), 3);
+    EXPECT_EQ(valueIn(row, "latency_p50_ms"), 20);
+    EXPECT_EQ(valueIn(row, "latency_p95_ms"), 40);
+    EXPECT_EQ(valueIn(row, "reaction_p95_ms"), std::nullopt);
+    EXPECT_EQ(valueIn(row, "longest_wait_ms"), 1500);
+}
+
+TEST(LoadSeries, Formats_LeaveOutWhatWasNotMeasured) {
+    const auto row = seriesRowOf(second(1.5, {watching(20, 30)}));
+    EXPECT_EQ(csvOf(row), "1.5,1,0,0,0,30,1,20,20,20,,,0\n");
+    EXPECT_EQ(jsonOf(row)["reaction_p95_ms"], nullptr);
+    EXPECT_EQ(jsonOf(row)["viewers"].dump(), "1");
+    const std::string prometheus = prometheusOf(row);
+    EXPECT_NE(prometheus.find("# TYPE froxel_load_viewers gauge\nfroxel_load_viewers 1\n"),
+              std::string::npos);
+    EXPECT_EQ(prometheus.find("reaction"), std::string::npos);
+}
+
+TEST(LoadSeries, PrometheusFile_HasTheNewestRowAlone) {
+    const std::string path = testing::TempDir() + "froxel_series.prom";
+    SeriesFile file(path);
+    file.add(seriesRowOf(second(1, {})));
+    file.add(seriesRowOf(second(2, {})));
+    const std::string text = readText(path).value();
+    EXPECT_NE(text.find("froxel_load_elapsed_s 2\n"), std::string::npos) << text;
+    EXPECT_EQ(text.find("froxel_load_elapsed_s 1\n"), std::string::npos) << text;
+    std::filesystem::remove(path);
+}
+
+TEST(LoadEarlyStop, Requirement_BrokenForLongEnough_EndsTheRun) {
+    LoadEarlyStop stop(required("fps>=30"), Seconds(2));
+    EXPECT_TRUE(stop.goesOn(second(1, {watching(20, 60)})));
+    EXPECT_TRUE(stop.goesOn(second(2, {watching(20, 0)}))) << "30 so far";
+    EXPECT_TRUE(stop.goesOn(second(3, {watching(20, 0)}))) << "20, for a second";
+    EXPECT_TRUE(stop.goesOn(second(4, {watching(20, 90)}))) << "37 again";
+    EXPECT_TRUE(stop.goesOn(second(5, {watching(20, 0)}))) << "30";
+    EXPECT_TRUE(stop.goesOn(second(6, {watching(20, 0)})));
+    EXPECT_FALSE(stop.goesOn(second(7, {watching(20, 0)})));
+}
+
+TEST(LoadEarlyStop, WhatOnlyWaits_IsNotMeasuredTwice) {
+    LoadEarlyStop stop(required("interval.max<1000"), Seconds(1));
+    auto waits = watching(20, 1);
+    waits.waiting.interval_ms = {900};
+    EXPECT_TRUE(stop.goesOn(second(1, {waits})));
+    waits.waiting.interval_ms = {1900};
+    EXPECT_FALSE(stop.goesOn(second(2, {waits})));
+    LoadEarlyStop other(required("interval.mean<1000"), Seconds(1));
+    for (int at = 1; at < 5; ++at) {
+        auto long_wait = watching(20, 0);
+        long_wait.waiting.interval_ms = {900};
+        EXPECT_TRUE(other.goesOn(second(at, {long_wait})));
+    }
+}
+
+TEST(LoadEarlyStop, NothingMeasuredYet_IsNotBroken) {
+    LoadEarlyStop stop(required("latency.p95<10"), Seconds(1));
+    EXPECT_TRUE(stop.goesOn(second(1, {load::ViewerChange{}})));
+    EXPECT_TRUE(stop.goesOn(second(2, {load::ViewerChange{}})));
+}
+
+load::CapacitySearch searched(uint32_t limit, uint32_t most, std::vector<LoadTrial>& trials) {
+    load::CapacitySearch search(most, 2);
+    while (const auto viewers = search.next()) {
+        const bool held = *viewers <= limit;
+        search.note(*viewers, held);
+        trials.push_back({*viewers,
+                          held,
+                          held ? std::nullopt : std::optional<std::string>("slow"),
+                          {{"fps>=30", held ? 60 : 20, held}},
+                          {}});
+    }
+    return search;
+}
+
+TEST(LoadCapacity, Text_SaysHowSureItIs) {
+    std::vector<LoadTrial> trials;
+    const auto search = searched(6, 100, trials);
+    EXPECT_EQ(capacityText(search, trials, false),
+              "capacity: 6 viewers (held in 2 of 2 trials with 6 viewers, held in 0 of 2 trials "
+              "with 7 viewers)\n");
+    EXPECT_EQ(trialLine(trials.front()), "    1 viewers  held    fps>=30: 60\n");
+    trials.clear();
+    EXPECT_EQ(capacityText(searched(6, 4, trials), trials, false),
+              "capacity: at least 4 viewers (held in 2 of 2 trials with 4 viewers)\n");
+    EXPECT_EQ(capacityText(searched(6, 4, trials), {}, true),
+              "stopped after 0 trials; 4 viewers held so far\n");
+}
+
+TEST(LoadCapacity, Report_HasEveryTrial) {
+    std::vector<LoadTrial> trials;
+    const auto search = searched(1, 100, trials);
+    const auto report = capacityReport({}, {}, search, trials, false);
+    EXPECT_EQ(report["schema"], "froxel.capacity.v1");
+    EXPECT_EQ(report["capacity"], 1);
+    EXPECT_EQ(report["broken_from"], 2);
+    EXPECT_EQ(report["required"][0], "fps>=30");
+    EXPECT_EQ(report["trials"].size(), 4U);
+    EXPECT_EQ(report["trials"][1]["broken"], "slow");
+}
+
 TEST(LoadTable, Viewers_AFew_AreListed_ManyAreNot) {
-    EXPECT_EQ(loadTable(run({failed("at once")})), "");
-    const std::string few = loadTable(run({viewer(0), viewer(100)}));
+    EXPECT_EQ(loadTable(run({failed("at once")}), {}), "");
+    const std::string few = loadTable(run({viewer(0), viewer(100)}), {});
     EXPECT_NE(few.find("\n   all     100.0 "), std::string::npos) << few;
     EXPECT_NE(few.find("\n     2      50.0 "), std::string::npos) << few;
-    const std::string many = loadTable(run(std::vector<load::ViewerResult>(17, viewer(0))));
+    const std::string many = loadTable(run(std::vector<load::ViewerResult>(17, viewer(0))), {});
     EXPECT_EQ(many.find("\n     2 "), std::string::npos) << many;
 }
 
-TEST(LoadProgress, Rates_AreOfTheLastSecond) {
-    LoadOptions options;
-    options.viewer_count = 4;
-    options.seconds = 30;
-    const load::RunProgress joining{false, Seconds(1), 3, 1, 10, 1000};
-    EXPECT_EQ(loadProgress(options, joining, {}), "joining: 3 of 4 viewers, 1 failed");
-    const load::RunProgress first{true, Seconds(1), 4, 1, 60, 126'000};
-    EXPECT_EQ(loadProgress(options, first, joining),
-              "1 of 30 s, 3 viewers, 50 frames/s, 1.0 Mbit/s");
-    const load::RunProgress second{true, Seconds(2), 4, 1, 90, 126'000};
-    EXPECT_EQ(loadProgress(options, second, first),
-              "2 of 30 s, 3 viewers, 30 frames/s, 0.0 Mbit/s");
+TEST(LoadProgress, SaysWhoIsThere) {
+    load::RunOptions options;
+    options.visits.resize(4);
+    load::RunSecond joining;
+    joining.joined = 3;
+    joining.ended = 1;
+    EXPECT_EQ(loadProgress(options, joining), "joining: 3 of 4 viewers, 1 failed");
+    EXPECT_EQ(loadProgress(options, second(2, {watching(20, 30)})),
+              "2 s, 1 viewers, 0 joining, 0 failed, 30 frames/s, 1.0 Mbit/s");
 }
 
 } // namespace

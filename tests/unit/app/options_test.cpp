@@ -284,7 +284,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"load", "ws://a", "--viewers", "0"}, {"--viewers", "'0'", "1 to 10000"}},
         Refusal{{"load", "ws://a", "--script", "dance"},
                 {"--script", "'dance'", "orbit", ".jsonl"}},
-        Refusal{{"load", "ws://a", "--min-fps", "nan"}, {"--min-fps", "'nan'"}},
+        Refusal{{"load", "ws://a", "--require", "fps>=nan"}, {"--require", "'fps>=nan'", "'nan'"}},
+        Refusal{{"load", "ws://a", "--stages", "1x:2"}, {"--stages", "'1x:2'", "1m:10"}},
+        Refusal{{"load", "ws://a", "--stages", "1s:2", "--viewers", "2"},
+                {"--stages", "--viewers"}},
+        Refusal{{"load", "ws://a", "--find", "fps>=3", "--require", "fps>=3"},
+                {"--find", "--require"}},
+        Refusal{{"load", "ws://a", "--think", "3-1"}, {"--think", "'3-1'", "1-5"}},
+        Refusal{{"load", "ws://a", "--series", "a.txt"}, {"--series", "'a.txt'", ".csv"}},
+        Refusal{{"load", "ws://a", "--script", "orbit:0"}, {"--script", "'orbit:0'", ":SHARE"}},
         Refusal{{"scene"}, {"--out"}},
         Refusal{{"scene", "--out", "hall.obj"}, {"--out", "'hall.obj'", ".glb"}}));
 

@@ -73,6 +73,52 @@ TEST(Scripts, Orbit_OfTwoViewers_LooksFromTwoSides) {
         0.1);
 }
 
+TEST(Scripts, Orbit_WithTimeToThink_RestsAfterEachCircle) {
+    const auto plain = makeScript(Orbit{}, welcome(), 1);
+    const auto thinking = makeScript(Orbit{}, welcome(), 1, ThinkTime{2s, 4s});
+    Clock::duration rested{};
+    std::set<Clock::duration> rests;
+    for (int index = 0; index < 3 * 600; ++index) {
+        const auto step = thinking->next();
+        const auto same = plain->next();
+        ASSERT_TRUE(step && same);
+        EXPECT_EQ(step->message.SerializeAsString(), same->message.SerializeAsString());
+        const auto more = step->at - same->at - rested;
+        rested += more;
+        EXPECT_EQ(more != Clock::duration{}, index > 0 && index % 600 == 0) << index;
+        if (more != Clock::duration{}) {
+            EXPECT_GE(more, 2s);
+            EXPECT_LE(more, 4s);
+            rests.insert(more);
+        }
+    }
+    EXPECT_EQ(rests.size(), 2U) << "each of its own length";
+}
+
+TEST(Scripts, Recording_WithTimeToThink_IsPlayedAgain) {
+    auto steps = std::make_shared<std::vector<Step>>(2);
+    steps->at(0).message.mutable_ping();
+    steps->at(1).at = 1s;
+    const auto once = makeScript(Recording(steps), welcome(), 1);
+    EXPECT_TRUE(once->next() && once->next() && !once->next());
+    const auto again = makeScript(Recording(steps), welcome(), 1, ThinkTime{3s, 3s});
+    std::vector<Clock::duration> times;
+    for (int index = 0; index < 5; ++index) {
+        times.push_back(again->next().value().at);
+    }
+    EXPECT_EQ(times, (std::vector<Clock::duration>{0s, 1s, 4s, 5s, 8s}));
+    EXPECT_FALSE(
+        makeScript(std::make_shared<std::vector<Step>>(), welcome(), 1, ThinkTime{3s, 3s})->next())
+        << "an empty one is over";
+}
+
+TEST(Scripts, Restless_AreThoseThatNeverPause) {
+    EXPECT_TRUE(isRestless(Orbit{}, {}));
+    EXPECT_TRUE(isRestless(Storm{}, {}));
+    EXPECT_FALSE(isRestless(Idle{}, {}));
+    EXPECT_FALSE(isRestless(Orbit{}, ThinkTime{1s, 1s}));
+}
+
 // Paths of all fields that a message has, of messages within it too.
 void listFields(const google::protobuf::Descriptor& message,
                 const std::string& path,

@@ -36,10 +36,6 @@ v1::ViewState restingLights() {
     return state;
 }
 
-const std::vector<double>& stage(const ViewerMeter& meter, Stage which) {
-    return meter.measured().samples.stage_ms[static_cast<size_t>(which)];
-}
-
 TEST(ViewerMeter, Frame_ShowingANewCommand_GivesLatencyAgeAndStages) {
     ViewerMeter meter;
     meter.begin(kStart);
@@ -55,10 +51,10 @@ TEST(ViewerMeter, Frame_ShowingANewCommand_GivesLatencyAgeAndStages) {
     const Measured& measured = meter.measured();
     EXPECT_EQ(measured.samples.latency_ms, std::vector{40.0});
     EXPECT_EQ(measured.samples.age_ms, std::vector{35.0});
-    EXPECT_EQ(stage(meter, Stage::kQueue), std::vector{5.0});
-    EXPECT_EQ(stage(meter, Stage::kRender), std::vector{20.0});
+    EXPECT_EQ(measured.samples.queue_ms, std::vector{5.0});
+    EXPECT_EQ(measured.samples.render_ms, std::vector{20.0});
     EXPECT_EQ(measured.samples.gpu_ms, std::vector{18.0});
-    EXPECT_EQ(stage(meter, Stage::kNetwork), std::vector{11.5});
+    EXPECT_EQ(measured.samples.network_ms, std::vector{11.5});
     EXPECT_EQ(measured.frames, 1U);
     EXPECT_EQ(measured.frame_bytes, 1000U);
     EXPECT_EQ(measured.seconds, 2.0);
@@ -69,7 +65,7 @@ TEST(ViewerMeter, Frame_WithoutATimeOnTheDevice_HasNoSampleOfIt) {
     meter.begin(kStart);
     ASSERT_TRUE(meter.onFrame(frame(1, 3, kStart), 10, 4, kStart + 50ms));
     EXPECT_TRUE(meter.measured().samples.gpu_ms.empty());
-    EXPECT_EQ(stage(meter, Stage::kRender).size(), 1U);
+    EXPECT_EQ(meter.measured().samples.render_ms.size(), 1U);
 }
 
 TEST(ViewerMeter, Frame_ShowingNothingNew_CountsButHasNoLatency) {
@@ -80,8 +76,8 @@ TEST(ViewerMeter, Frame_ShowingNothingNew_CountsButHasNoLatency) {
     ASSERT_TRUE(meter.onFrame(frame(5, 2, kStart), 10, 2, kStart + 12ms));
     EXPECT_EQ(meter.measured().frames, 2U);
     EXPECT_TRUE(meter.measured().samples.latency_ms.empty());
-    EXPECT_TRUE(stage(meter, Stage::kQueue).empty());
-    EXPECT_EQ(stage(meter, Stage::kRender).size(), 2U);
+    EXPECT_TRUE(meter.measured().samples.queue_ms.empty());
+    EXPECT_EQ(meter.measured().samples.render_ms.size(), 2U);
     EXPECT_TRUE(meter.measured().samples.interval_ms.empty()) << "none was due";
 }
 
@@ -137,17 +133,18 @@ TEST(ViewerMeter, Commands_TellHowLateTheyWere_RefusalsTheirFirstText) {
     v1::Error error;
     error.set_message("first\n");
     error.set_code(v1::ERROR_CODE_CAPACITY);
-    meter.onRefusal(error);
+    meter.onError(error);
     error.set_message("second");
     error.set_code(v1::ERROR_CODE_DEVICE);
-    meter.onRefusal(error);
+    meter.onError(error);
     const Measured& measured = meter.measured();
     EXPECT_EQ(measured.samples.timer_lag_ms, std::vector{3.0});
     EXPECT_EQ(measured.commands, 1U);
     EXPECT_EQ(measured.commands_skipped, 1U);
-    EXPECT_EQ(measured.refusals, (std::map<v1::ErrorCode, uint64_t>{{v1::ERROR_CODE_CAPACITY, 1},
-                                                                    {v1::ERROR_CODE_DEVICE, 1}}));
-    EXPECT_EQ(measured.refusal, "first\\x0a");
+    EXPECT_EQ(measured.errors_by_code,
+              (std::map<v1::ErrorCode, uint64_t>{{v1::ERROR_CODE_CAPACITY, 1},
+                                                 {v1::ERROR_CODE_DEVICE, 1}}));
+    EXPECT_EQ(measured.first_error, "first\\x0a");
 }
 
 TEST(ViewerMeter, Begin_WhileLightsMove_IsWhereTheFirstIntervalBegins) {
@@ -248,7 +245,7 @@ TEST(ViewerMeter, Command_Refused_WaitsNoMore) {
     meter.onCommand(3, camera(), kStart, kStart);
     v1::Error error;
     error.set_ref_seq(3);
-    meter.onRefusal(error);
+    meter.onError(error);
     meter.end(kStart + 9s);
     EXPECT_EQ(meter.measured().commands_unshown, 0U);
     EXPECT_TRUE(meter.measured().samples.interval_ms.empty());
@@ -270,6 +267,35 @@ TEST(ViewerMeter, Pause_UntilItEnds_MakesNothingDue) {
 }
 
 // A watcher of a room: no command, and a clock that is 3 s off.
+TEST(ViewerMeter, TakeNew_OverTime_AddsUpToWhatTheEndHas) {
+    ViewerMeter meter;
+    EXPECT_EQ(meter.takeNew(kStart - 1s).seconds, 0) << "it has not begun";
+    meter.begin(kStart);
+    meter.onCommand(1, camera(), kStart, kStart + 1ms);
+    ASSERT_TRUE(meter.onFrame(frame(1, 1, kStart + 1ms), 100, 1, kStart + 11ms));
+    Measured sum = meter.takeNew(kStart + 1s);
+    EXPECT_EQ(sum.frames, 1U);
+    EXPECT_EQ(sum.seconds, 1);
+    EXPECT_EQ(sum.samples.latency_ms, std::vector{10.0});
+    meter.onCommand(2, camera(), kStart + 1s, kStart + 1s);
+    EXPECT_EQ(meter.waiting(kStart + 1500ms).reaction_ms, std::vector{500.0});
+    meter.onFrameDropped();
+    meter.end(kStart + 2s);
+    const Measured rest = meter.takeNew(kStart + 3s);
+    EXPECT_EQ(rest.frames, 0U);
+    EXPECT_EQ(rest.client_dropped, 1U);
+    EXPECT_EQ(rest.seconds, 1) << "no longer than it measured";
+    EXPECT_TRUE(rest.samples.latency_ms.empty());
+    sum.add(rest);
+    EXPECT_EQ(sum.commands, 2U);
+    EXPECT_EQ(sum.commands_unshown, 1U);
+    for (const SampleSeries& series : kSampleSeries) {
+        EXPECT_EQ(sum.samples.*series.samples, meter.measured().samples.*series.samples)
+            << series.name;
+    }
+    EXPECT_EQ(meter.takeNew(kStart + 4s).commands, 0U) << "all was taken";
+}
+
 TEST(ViewerMeter, Watcher_HasAnAgeForEveryFrame) {
     ViewerMeter meter;
     meter.onState(movingLights(), kStart);
