@@ -49,6 +49,7 @@ export default defineConfig({
   server: {
     proxy: {
       '/ws': { target: 'ws://127.0.0.1:8080', ws: true },
+      '/rooms/ws': { target: 'ws://127.0.0.1:8080', ws: true },
       '/settings.json': 'http://127.0.0.1:8080',
       '/view': 'http://127.0.0.1:8080',
     },

@@ -56,6 +56,7 @@ Json serviceReport() {
         {"port", defaults.port},
         {"admin_port", defaults.admin.port},
         {"socket_path", net::kSocketPath},
+        {"room_socket_path", net::kRoomSocketPath},
         {"metrics_path", net::kMetricsPath},
         {"live_path", net::kLivePath},
         {"ready_path", net::kReadyPath},

@@ -8,6 +8,11 @@ namespace froxel::net {
 
 // Of the viewers' address.
 inline constexpr std::string_view kSocketPath = "/ws";
+// The same for a viewer of a room, for proxies that tell requests apart by their path alone.
+inline constexpr std::string_view kRoomSocketPath = "/rooms/ws";
+constexpr bool isSocketPath(std::string_view path) {
+    return path == kSocketPath || path == kRoomSocketPath;
+}
 // Of the admin address.
 inline constexpr std::string_view kMetricsPath = "/metrics";
 inline constexpr std::string_view kLivePath = "/livez";

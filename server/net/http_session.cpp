@@ -210,7 +210,7 @@ void HttpSession::onRequest() {
     if (answersLater(request)) {
         return;
     }
-    const bool asks = request.method() == http::verb::get && pathOf(request) == kSocketPath;
+    const bool asks = request.method() == http::verb::get && isSocketPath(pathOf(request));
     auto refused = asks ? site_->refuseUpgrade(request, peer) : std::nullopt;
     write(refused ? std::move(*refused) : respond(request, *site_, peer));
 }

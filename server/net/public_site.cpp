@@ -181,7 +181,7 @@ whyNoPlace(const Request& request, const asio::ip::address& peer, const Site& si
 // None where it may.
 std::optional<Response>
 whyNoUpgrade(const Request& request, const asio::ip::address& peer, const Site& site) {
-    if (pathOf(request) != kSocketPath) {
+    if (!isSocketPath(pathOf(request))) {
         return refusal(http::status::not_found, "the WebSocket is at /ws");
     }
     std::optional<std::string_view> origin;
@@ -232,7 +232,7 @@ Response PublicSite::answer(const Request& request,
         return textResponse(http::status::not_found,
                             "metrics are at the admin address (froxel serve --admin-bind)");
     }
-    if (path == kSocketPath) {
+    if (isSocketPath(path)) {
         Response response = textResponse(http::status::upgrade_required,
                                          "this path supports only WebSocket (version 13)");
         response.set(http::field::upgrade, "websocket");

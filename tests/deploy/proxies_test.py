@@ -8,6 +8,8 @@ ports and certificates. Viewers are lavapipe's smallest.
 
 import asyncio
 import contextlib
+import http.client
+import http.server
 import json
 import os
 import random
@@ -19,6 +21,7 @@ import ssl
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 from pathlib import Path
@@ -161,25 +164,59 @@ def trusting():
 class Session:
     """One connection that holds a session, without looking at it."""
 
-    async def open(self, url, before=None):
+    async def open(self, url, before=None, room="", headers=None):
         """Comes back to the session of `before`, if it is given."""
-        query = f"?resume={before.token[:16]}" if before else ""
-        headers = {"Cookie": before.cookie} if before and before.cookie else {}
+        query = f"?resume={before.token[:16]}" if before else f"?room={room}" if room else ""
+        headers = headers or ({"Cookie": before.cookie} if before and before.cookie else {})
         self.connection = await websockets.legacy.client.connect(
             url + query, ssl=trusting() if url.startswith("wss:") else None, extra_headers=headers,
             subprotocols=["froxel.v1"], max_size=2**26)
         given = self.connection.response_headers.get("Set-Cookie")
         self.cookie = given.split(";")[0] if given else before.cookie if before else ""
         token = {"resumeToken": before.token} if before else {}
-        await self.connection.send(json.dumps({"seq": 1, "hello": {"protocolMajor": 1, **token}}))
+        await self.connection.send(json.dumps({"seq": 1, "hello": {"protocolMajor": 1, "room": room, **token}}))
         while "welcome" not in (message := await self.connection.recv()):
             pass
         self.welcome = json.loads(message)["welcome"]
         self.token = self.welcome["resumeToken"]
+        self.members = self.welcome.get("room", {}).get("memberCount", 0)
         return self
 
     def cut(self):
         self.connection.transport.abort()
+
+
+class SignIn:
+    """What nginx asks of an oauth2-proxy: /oauth2/auth by its cookie, and a page to sign in."""
+
+    def __init__(self):
+        class Handler(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                good = "_oauth2_proxy=good" in self.headers.get("Cookie", "")
+                self.send_response(200 if self.path.startswith("/oauth2/start") else 202 if good else 401)
+                self.send_header("Content-Length", "0")
+                self.end_headers()
+
+            def log_message(self, *_):
+                pass
+
+        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self.port = self.server.server_port
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+
+    def end(self):
+        self.server.shutdown()
+        self.server.server_close()
+
+
+def fetch(port, path, headers):
+    """Status and Location of a GET over TLS."""
+    connection = http.client.HTTPSConnection("127.0.0.1", port, context=trusting(), timeout=20)
+    with contextlib.closing(connection):
+        connection.request("GET", path, headers=headers)
+        answer = connection.getresponse()
+        answer.read()
+        return answer.status, answer.headers.get("Location", "")
 
 
 async def eventually(condition, seconds=20):
@@ -279,6 +316,43 @@ class Proxies(unittest.IsolatedAsyncioTestCase):
         await eventually(lambda: empty.metric("froxel_viewers") == before + 7)
         self.assertTrue((await Session().open(url, last)).welcome.get("resumed"))
 
+    async def check_rooms(self, name, command, comes_back_to):
+        """Viewers of one room meet, whichever path they take, and whatever happens to its server.
+
+        comes_back_to: whether a room that moved stays where it is when its first server is back.
+        """
+        servers = [Server("--max-sessions", "12"), Server("--max-sessions", "12")]
+        for server in servers:
+            self.addCleanup(server.end)
+        for server in servers:
+            await asyncio.to_thread(server.wait_ready)
+        url, port = self.start_proxy(name, command, servers)
+        await eventually(lambda: listens(port))
+        await asyncio.sleep(2.5)  # HAProxy knows who is well
+        page = url.replace("/ws", "/rooms/ws")  # as the page connects
+        rooms = [f"room-{number}" for number in range(8)]
+        for room in rooms:
+            for address in (url, page, url):
+                await Session().open(address, room=room)
+        sessions = [server.metric("froxel_sessions") for server in servers]
+        self.assertEqual(sum(sessions), len(rooms), "each room is on one server alone")
+        self.assertGreater(min(sessions), 0, "rooms are spread")
+        self.assertEqual(sum(server.metric("froxel_viewers") for server in servers), 3 * len(rooms))
+
+        # A server ends: everybody of its rooms meets on the other one.
+        servers[0].end()
+        await asyncio.sleep(2.5)
+        survivors = [await Session().open(page, room=room) for room in rooms for _ in range(2)]
+        self.assertEqual(servers[1].metric("froxel_sessions"), len(rooms))
+        self.assertEqual(min(session.members for session in survivors[1::2]), 2)
+        if comes_back_to:
+            servers[0].start()
+            await asyncio.to_thread(servers[0].wait_ready)
+            await asyncio.sleep(2.5)
+            for room in rooms:
+                await Session().open(page, room=room)
+            self.assertEqual(servers[0].metric("froxel_sessions"), 0)
+
     async def leave(self, viewers):
         for viewer in viewers:
             viewer.task.cancel()
@@ -348,6 +422,40 @@ class Proxies(unittest.IsolatedAsyncioTestCase):
         if not shutil.which("haproxy"):
             self.skipTest("haproxy is not here (Debian: haproxy)")
         await self.check_full("haproxy.cfg", ["haproxy", "-db", "-f"])
+
+    async def test_nginx_sign_in(self):
+        """Only who is signed in gets the page, the API and a WebSocket."""
+        if not shutil.which("nginx"):
+            self.skipTest("nginx is not here (Debian: nginx-light)")
+        sign_in = SignIn()
+        self.addCleanup(sign_in.end)
+        text = (DEPLOY / "nginx.signin.conf").read_text()
+        (self.folder / "nginx.signin.conf").write_text(text.replace("oauth2-proxy:4180", f"127.0.0.1:{sign_in.port}"))
+        self.addCleanup((self.folder / "nginx.signin.conf").unlink)
+        url, port = self.start_proxy("nginx.conf", ["nginx", "-g", "daemon off;", "-c"])
+        await eventually(lambda: listens(port))
+        signed_in = {"Cookie": "_oauth2_proxy=good"}
+        for path in ("/", "/healthz", "/settings.json"):
+            status, location = await asyncio.to_thread(fetch, port, path, {})
+            self.assertEqual(status, 302, path)
+            self.assertIn("/oauth2/start?rd=https://", location)
+            self.assertEqual((await asyncio.to_thread(fetch, port, path, signed_in))[0], 200, path)
+        self.assertEqual((await asyncio.to_thread(fetch, port, "/oauth2/start?rd=/", {}))[0], 200)
+        self.assertEqual((await asyncio.to_thread(fetch, port, "/oauth2/auth", {}))[0], 404, "nginx' own question")
+        with self.assertRaises(websockets.exceptions.InvalidStatusCode) as refused:
+            await Session().open(url)
+        self.assertEqual(refused.exception.status_code, 401)
+        await Session().open(url, headers=signed_in)
+
+    async def test_nginx_rooms(self):
+        if not shutil.which("nginx"):
+            self.skipTest("nginx is not here (Debian: nginx-light)")
+        await self.check_rooms("nginx.conf", ["nginx", "-g", "daemon off;", "-c"], comes_back_to=False)
+
+    async def test_haproxy_rooms(self):
+        if not shutil.which("haproxy"):
+            self.skipTest("haproxy is not here (Debian: haproxy)")
+        await self.check_rooms("haproxy.cfg", ["haproxy", "-db", "-f"], comes_back_to=True)
 
     async def test_haproxy(self):
         if not shutil.which("haproxy"):

@@ -386,9 +386,11 @@ TEST(AdmissionByCost, DeviceIsBusy_RefusesClearly_ExistingOnesKeepTheirRate) {
     EXPECT_EQ(statusOf(told), 503);
     EXPECT_NE(told.find("Froxel-Close-Code: 4030"), std::string::npos) << told;
     EXPECT_NE(told.find("the server cannot draw for more viewers now"), std::string::npos);
-    WsClient watcher(server.port(), {.target = "/ws?room=hall"});
-    watcher.join("hall");
-    watcher.expectFrame();
+    for (const char* target : {"/ws?room=hall", "/rooms/ws?room=hall"}) {
+        WsClient watcher(server.port(), {.target = target});
+        watcher.join("hall");
+        watcher.expectFrame();
+    }
 }
 
 } // namespace

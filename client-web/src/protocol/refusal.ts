@@ -13,10 +13,16 @@ export interface Refusal {
   readonly retryAfterMs: number;
 }
 
-/** The socket's URL with what decides whether there is a place: the room, and whose session. */
+/**
+ * The socket's URL with what decides whether there is a place: the room, and whose session. A room's path is
+ * its own, so that any proxy can lead all of a room to one server.
+ */
 export function announced(url: string, room: string, resumeToken: string): string {
   const target = new URL(url);
-  if (room !== '') target.searchParams.set('room', room);
+  if (room !== '') {
+    target.pathname = target.pathname.replace(/(^|\/)ws$/, '$1rooms/ws');
+    target.searchParams.set('room', room);
+  }
   if (resumeToken !== '') {
     target.searchParams.set('resume', resumeToken.slice(0, kResumeNameDigits));
   }

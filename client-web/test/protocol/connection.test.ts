@@ -281,14 +281,14 @@ describe('Connection', () => {
     env.socket.accept();
     env.socket.drop(1006);
     env.pass(500);
-    const announcing = 'ws://host/ws?room=hall&resume=0123456789abcdef';
+    const announcing = 'ws://host/rooms/ws?room=hall&resume=0123456789abcdef';
     expect(env.socket.url).toBe(announcing);
     env.refusal = { reason: 'full', closeCode: 4029, retryAfterMs: 60_000 };
     env.socket.drop(1006);
     await Promise.resolve();
     expect(env.asked).toEqual([announcing]);
     // At once, as a new one.
-    expect(env.socket.url).toBe('ws://host/ws?room=hall');
+    expect(env.socket.url).toBe('ws://host/rooms/ws?room=hall');
     env.socket.accept();
     expect(env.socket.sent[0]?.body).toMatchObject({ value: { resumeToken: env.token } });
   });
