@@ -16,12 +16,12 @@ build_packages=(
     libglm-dev 'libboost-url1.81-dev|libboost-url-dev' libspdlog-dev libcli11-dev
     libturbojpeg0-dev libpng-dev libwebp-dev libzstd-dev wabt libopenexr-dev libstb-dev libvpx-dev
     libprotobuf-dev protobuf-compiler prometheus-cpp-dev libtomlplusplus-dev libssl-dev
-    ca-certificates
+    python3 ca-certificates
 )
 run_packages=(mesa-vulkan-drivers)
 test_packages=(
     vulkan-validationlayers libgtest-dev libgmock-dev libbenchmark-dev
-    python3 python3-websockets python3-yaml openssl curl git ccache mold clang-format universal-ctags
+    python3-websockets python3-yaml openssl curl git ccache mold clang-format universal-ctags
 )
 build_tools=(c++ cmake ninja pkg-config glslangValidator spirv-val protoc wasm2c node npm)
 
@@ -40,6 +40,7 @@ add_unless_on_path build_packages node nodejs
 add_unless_on_path build_packages npm npm
 add_unless_on_path test_packages chromium chromium
 add_unless_on_path test_packages promtool prometheus
+add_unless_on_path test_packages amtool prometheus-alertmanager
 add_unless_on_path test_packages kubectl kubernetes-client
 add_unless_on_path test_packages /usr/sbin/nginx nginx-light
 add_unless_on_path test_packages /usr/sbin/haproxy haproxy

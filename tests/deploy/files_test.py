@@ -8,10 +8,12 @@ Kubernetes' API; what only a cluster knows is not tested.
 import contextlib
 import copy
 import json
+import os
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 import tomllib
 import unittest
@@ -53,6 +55,38 @@ def mebibytes(text):
 def defaulted(text):
     """What compose makes of "${NAME:-value}" where NAME is not set."""
     return re.sub(r"\$\{\w+:-([^}]*)\}", r"\1", str(text))
+
+
+# https://kubernetes.io/docs/concepts/security/pod-security-standards/
+ALLOWED_VOLUMES = {"configMap", "csi", "downwardAPI", "emptyDir", "ephemeral", "persistentVolumeClaim", "projected",
+                   "secret"}
+
+
+def restricted_faults(pod):
+    """What the level restricted of the Pod Security Standards, which has baseline in it, forbids in a pod."""
+    of_pod = pod.get("securityContext", {})
+    faults = [name for name in ("hostNetwork", "hostPID", "hostIPC") if pod.get(name)]
+    faults += [f"volume of {kind}" for volume in pod.get("volumes", []) for kind in volume
+               if kind != "name" and kind not in ALLOWED_VOLUMES]
+    if not of_pod.get("runAsNonRoot"):
+        faults.append("runAsNonRoot of the pod")
+    if of_pod.get("seccompProfile", {}).get("type") not in ("RuntimeDefault", "Localhost"):
+        faults.append("seccompProfile of the pod")
+    faults += [name for name in ("sysctls", "windowsOptions") if of_pod.get(name)]
+    for container in [*pod.get("initContainers", []), *pod["containers"]]:
+        context = {"runAsUser": of_pod.get("runAsUser"), **container.get("securityContext", {})}
+        wrong = {
+            "privileged": context.get("privileged", False),
+            "allowPrivilegeEscalation": context.get("allowPrivilegeEscalation") is not False,
+            "capabilities": context.get("capabilities", {}).get("drop") != ["ALL"]
+                            or set(context["capabilities"].get("add", [])) - {"NET_BIND_SERVICE"},
+            "runAsUser": context["runAsUser"] == 0,
+            "runAsNonRoot": context.get("runAsNonRoot", True) is False,
+            "procMount": context.get("procMount", "Default") != "Default",
+            "hostPort": any("hostPort" in port for port in container.get("ports", [])),
+        }
+        faults += [f"{name} of {container['name']}" for name, fault in wrong.items() if fault]
+    return faults
 
 
 # What a CPU server takes beside its sessions: the built-in scene on the device; and the process with
@@ -100,6 +134,16 @@ class Files(unittest.TestCase):
         self.assertEqual(done.stderr, "", "kustomize warns of what it will drop")
         return list(yaml.safe_load_all(done.stdout))
 
+    def composed(self, *components):
+        """The manifests of overlays/cpu with these components."""
+        with tempfile.TemporaryDirectory() as folder:
+            there = os.path.relpath(DEPLOY / "kubernetes", Path(folder).resolve())
+            kustomization = {"apiVersion": "kustomize.config.k8s.io/v1beta1", "kind": "Kustomization",
+                             "resources": [f"{there}/overlays/cpu"],
+                             "components": [f"{there}/components/{name}" for name in components]}
+            (Path(folder) / "kustomization.yaml").write_text(yaml.safe_dump(kustomization))
+            return self.manifests(folder)
+
     def kinds_of(self, folder):
         kinds = {}
         for document in self.manifests(folder):
@@ -107,9 +151,107 @@ class Files(unittest.TestCase):
         return kinds
 
     def test_overlays_agree_with_the_binary_and_with_themselves(self):
-        for overlay in ("cpu", "nvidia"):
+        for overlay in ("cpu", "nvidia", "example"):
             with self.subTest(overlay):
-                self.check_manifests(self.kinds_of("overlays/" + overlay))
+                kinds = self.kinds_of("overlays/" + overlay)
+                self.check_manifests(kinds)
+                if overlay == "example":
+                    self.check_components(kinds)
+
+    def test_overlays_of_devices_need_nothing_but_kubernetes(self):
+        self.require_types()
+        for overlay in ("cpu", "nvidia"):
+            for document in self.manifests("overlays/" + overlay):
+                self.assertTrue(str(manifest_types.module_of(document["apiVersion"])).startswith("kubernetes-types"),
+                                document["kind"])
+                self.assertNotIn(document["kind"], ("Ingress", "HorizontalPodAutoscaler"))
+
+    def test_everything_is_in_the_namespace(self):
+        for documents in (self.manifests("overlays/example"), self.composed("scenes-volume")):
+            for document in documents:
+                if document["kind"] != "Namespace":
+                    self.assertEqual(document["metadata"]["namespace"], "froxel", document["metadata"]["name"])
+
+    def test_pods_are_restricted_as_their_namespace_demands(self):
+        """Kubernetes' Pod Security Standards, level restricted, which admission would enforce."""
+        pods = [(document["kind"], document["spec"]["template"]["spec"])
+                for documents in (self.manifests("overlays/nvidia"), self.manifests("overlays/example"),
+                                  self.composed("scenes-volume"))
+                for document in documents if document["kind"] == "Deployment"]
+        self.assertEqual(len(pods), 3)
+        for name, pod in pods:
+            self.assertEqual(restricted_faults(pod), [], name)
+        fleet, = self.kinds_of("agones")["Fleet"]
+        pod = fleet["spec"]["template"]["spec"]["template"]["spec"]
+        self.assertEqual(restricted_faults(pod), [])
+
+    def test_what_restricted_forbids_is_found(self):
+        (_, pod), = [("", document["spec"]["template"]["spec"]) for document in self.manifests("overlays/example")
+                     if document["kind"] == "Deployment"]
+        changes = {
+            "hostNetwork": lambda pod: pod.update(hostNetwork=True),
+            "hostPath": lambda pod: pod["volumes"].append({"name": "a", "hostPath": {"path": "/"}}),
+            "runAsNonRoot": lambda pod: pod["securityContext"].update(runAsNonRoot=False),
+            "runAsUser": lambda pod: pod["containers"][0]["securityContext"].update(runAsUser=0),
+            "seccompProfile": lambda pod: pod["securityContext"].pop("seccompProfile"),
+            "allowPrivilegeEscalation":
+                lambda pod: pod["initContainers"][0]["securityContext"].pop("allowPrivilegeEscalation"),
+            "privileged": lambda pod: pod["containers"][0]["securityContext"].update(privileged=True),
+            "capabilities": lambda pod: pod["initContainers"][0]["securityContext"].pop("capabilities"),
+            "hostPort": lambda pod: pod["containers"][0]["ports"][0].update(hostPort=80),
+        }
+        for words, change in changes.items():
+            broken = copy.deepcopy(pod)
+            change(broken)
+            faults = restricted_faults(broken)
+            self.assertEqual(len(faults), 1, (words, faults))
+            self.assertIn(words, faults[0])
+
+    def check_components(self, kinds):
+        """What the example adds."""
+        service = self.service
+        deployment, = kinds["Deployment"]
+        pod = deployment["spec"]["template"]["spec"]
+        self.assertEqual(kinds["ServiceMonitor"][0]["spec"]["endpoints"][0]["path"],
+                         service["metrics_path"])
+        monitored = kinds["ServiceMonitor"][0]["spec"]["selector"]["matchLabels"].items()
+        admin, = [entry for entry in kinds["Service"]
+                  if monitored <= entry["metadata"].get("labels", {}).items()]
+        self.assertEqual(admin["spec"]["ports"][0]["port"], service["admin_port"])
+        self.assertEqual(kinds["HorizontalPodAutoscaler"][0]["spec"]["scaleTargetRef"]["name"],
+                         deployment["metadata"]["name"])
+        paths = {}
+        for ingress in kinds["Ingress"]:
+            annotations = ingress["metadata"]["annotations"]
+            self.assertGreater(int(annotations["nginx.ingress.kubernetes.io/proxy-read-timeout"]),
+                               service["idle_timeout_seconds"])
+            self.assertIn("cert-manager.io/cluster-issuer", annotations)
+            self.assertIn("nginx.ingress.kubernetes.io/auth-url", annotations)
+            rule, = ingress["spec"]["rules"]
+            self.assertEqual([rule["host"]], ingress["spec"]["tls"][0]["hosts"])
+            self.assertNotEqual(rule["host"], "froxel.example.org", "the overlay names its own")
+            path, = rule["http"]["paths"]
+            paths[path["path"]] = annotations
+            backend = path["backend"]["service"]
+            public, = [entry for entry in kinds["Service"]
+                       if entry["metadata"]["name"] == backend["name"]]
+            self.assertEqual(public["spec"]["ports"][0]["name"], backend["port"]["name"])
+        self.assertEqual(set(paths), {"/", service["room_socket_path"]})
+        rooms = paths[service["room_socket_path"]]
+        self.assertEqual(rooms["nginx.ingress.kubernetes.io/upstream-hash-by"], "$arg_room")
+        self.assertNotIn("nginx.ingress.kubernetes.io/affinity", rooms, "a cookie would count before the hash")
+        copies, = pod["initContainers"]
+        config = [entry["configMapRef"]["name"] for entry in copies["envFrom"] if "configMapRef" in entry]
+        self.assertLessEqual(set(config), {entry["metadata"]["name"] for entry in kinds["ConfigMap"]})
+        mounts = [mount for mount in pod["containers"][0]["volumeMounts"] if mount["name"] == "scenes"]
+        self.assertEqual(mounts, [{"name": "scenes", "mountPath": self.image_variable("FROXEL_SCENES"),
+                                   "readOnly": True}])
+        ports = [port["port"] for rule in kinds["NetworkPolicy"][0]["spec"]["egress"] for port in rule["ports"]]
+        self.assertIn(443, ports)
+
+    @staticmethod
+    def image_variable(name):
+        return re.search(rf"^\s+{name}=(\S+)", (DEPLOY / "Dockerfile").read_text(), re.M)[1]
 
     def require_types(self):
         if not manifest_types.available():
@@ -117,7 +259,8 @@ class Files(unittest.TestCase):
 
     def test_manifests_are_of_the_types_of_the_api(self):
         self.require_types()
-        documents = self.manifests("overlays/cpu") + self.manifests("overlays/nvidia")
+        documents = [document for name in ("cpu", "nvidia", "example") for document in self.manifests(f"overlays/{name}")]
+        documents += self.composed("scenes-volume")
         for block in re.findall("```yaml\n(.*?)```", (DEPLOY / "README.md").read_text(), re.S):
             documents += [entry for entry in [yaml.safe_load(block)] if "apiVersion" in entry]
         self.assertIn("ScaledObject", {document["kind"] for document in documents})
@@ -125,7 +268,7 @@ class Files(unittest.TestCase):
 
     def test_what_the_api_would_not_take_is_found(self):
         self.require_types()
-        by_kind = {document["kind"]: document for document in self.manifests("overlays/cpu")}
+        by_kind = {document["kind"]: document for document in self.manifests("overlays/example")}
 
         def broken(kind, path, value):
             """A copy with another value (None: without it) at the path, keys with dots between."""
@@ -172,7 +315,7 @@ class Files(unittest.TestCase):
                             ("livenessProbe", "live_path")):
             self.assertEqual(container[probe]["httpGet"], {"path": service[path], "port": "admin"})
 
-        config_map, = kinds["ConfigMap"]
+        config_map, = [entry for entry in kinds["ConfigMap"] if "froxel.toml" in entry["data"]]
         config = tomllib.loads(config_map["data"]["froxel.toml"])
         self.assertLessEqual(set(config), self.options)
         env = {entry["name"]: entry["value"] for entry in container["env"]}
@@ -198,21 +341,6 @@ class Files(unittest.TestCase):
                 self.assertIn(port["targetPort"], ports)
         for rule in kinds["NetworkPolicy"][0]["spec"]["ingress"]:
             self.assertIn(rule["ports"][0]["port"], ports)
-        self.assertEqual(kinds["ServiceMonitor"][0]["spec"]["endpoints"][0]["path"],
-                         service["metrics_path"])
-        monitored = kinds["ServiceMonitor"][0]["spec"]["selector"]["matchLabels"].items()
-        admin, = [entry for entry in kinds["Service"]
-                  if monitored <= entry["metadata"].get("labels", {}).items()]
-        self.assertEqual(admin["spec"]["ports"][0]["port"], service["admin_port"])
-        self.assertEqual(kinds["HorizontalPodAutoscaler"][0]["spec"]["scaleTargetRef"]["name"],
-                         deployment["metadata"]["name"])
-        ingress, = kinds["Ingress"]
-        timeout = ingress["metadata"]["annotations"]["nginx.ingress.kubernetes.io/proxy-read-timeout"]
-        self.assertGreater(int(timeout), service["idle_timeout_seconds"])
-        backend = ingress["spec"]["rules"][0]["http"]["paths"][0]["backend"]["service"]
-        public, = [entry for entry in kinds["Service"]
-                   if entry["metadata"]["name"] == backend["name"]]
-        self.assertEqual(public["spec"]["ports"][0]["name"], backend["port"]["name"])
 
     def assert_memory(self, what, limit, sessions, env):
         """Sessions, each at its limit, and the scene fit into the share of a CPU server's memory
@@ -335,10 +463,20 @@ class Files(unittest.TestCase):
             for port in service.get("ports", []):
                 self.assertTrue(defaulted(port).startswith("127.0.0.1:"), port)
         self.assertEqual(froxel["expose"], [str(self.service["admin_port"])])
+        scenes, = [volume for volume in froxel["volumes"] if "FROXEL_SCENES_FOLDER" in volume]
+        self.assertTrue(scenes.endswith(f":{self.image_variable('FROXEL_SCENES')}:ro"))
+        self.assertTrue((DEPLOY / defaulted(scenes).split(":")[0]).is_dir())
         self.assertGreater(seconds(froxel["stop_grace_period"]),
                            int(froxel["environment"]["FROXEL_DRAIN_SECONDS"]))
         overlay = yaml.safe_load((DEPLOY / "compose.nvidia.yaml").read_text())
         self.assert_variables(overlay["services"]["froxel"]["environment"])
+        sign_in = yaml.safe_load((DEPLOY / "compose.signin.yaml").read_text())["services"]
+        self.assert_variables(sign_in["froxel"]["environment"])
+        for mount in sign_in["nginx"]["volumes"]:
+            if mount.startswith("./"):
+                self.assertTrue((DEPLOY / mount.split(":")[0]).is_file(), mount)
+        address = sign_in["oauth2-proxy"]["environment"]["OAUTH2_PROXY_HTTP_ADDRESS"].split(":")[1]
+        self.assertIn(f"oauth2-proxy:{address};", (DEPLOY / "nginx.signin.conf").read_text())
         scrape, = yaml.safe_load((DEPLOY / "compose/prometheus.yml").read_text())["scrape_configs"]
         self.assertEqual(scrape["static_configs"][0]["targets"],
                          [f"froxel:{self.service['admin_port']}"])
@@ -353,6 +491,16 @@ class Files(unittest.TestCase):
         used = set(re.findall(r"\b((?:froxel|process)_[a-z0-9_]+)", " ".join(texts)))
         self.assertGreater(len(used), 10)
         self.assertEqual({re.sub("_bucket$", "", name) for name in used} - metrics, set())
+
+    def test_alertmanager_takes_its_configuration(self):
+        config = yaml.safe_load((DEPLOY / "compose/alertmanager.yml").read_text())
+        alerts = (DEPLOY / "compose/alerts.yml").read_text()
+        for rule in config["inhibit_rules"]:
+            for source in re.findall(r'alertname="(\w+)"', " ".join(rule["source_matchers"])):
+                self.assertIn(f"alert: {source}\n", alerts)
+        if not shutil.which("amtool"):
+            self.skipTest("amtool is not here (Debian: prometheus-alertmanager)")
+        run("amtool", "check-config", DEPLOY / "compose/alertmanager.yml")
 
     def test_alerts_hold(self):
         if not shutil.which("promtool"):
@@ -391,7 +539,7 @@ class Files(unittest.TestCase):
         readme = (DEPLOY / "README.md").read_text()
         given = set(re.findall(r"name: \{as: (\w+)\}|seriesQuery: (froxel_device_load)\b", readme))
         given = {name for pair in given for name in pair if name}
-        autoscaler = yaml.safe_load((DEPLOY / "kubernetes/base/autoscaler.yaml").read_text())
+        autoscaler = yaml.safe_load((DEPLOY / "kubernetes/components/autoscaler/autoscaler.yaml").read_text())
         used = {metric["pods"]["metric"]["name"] for metric in autoscaler["spec"]["metrics"]}
         self.assertIn("froxel_device_load", used)
         self.assertLessEqual(used, given)
@@ -433,6 +581,15 @@ PACKAGES = {
 
 
 class Packages(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("dpkg-shlibdeps"), "no dpkg-shlibdeps")
+    def test_third_party_list_is_what_the_binary_is_built_from(self):
+        told = (ROOT / "THIRD_PARTY.md").read_text()
+        made = run(sys.executable, DEPLOY / "notices.py", FROXEL)
+        # Sources with a version in their name differ from release to release of Debian.
+        unversioned = [re.sub(r"^(\| `(?:boost|gcc-))[\d.]+`", r"\1`", text, flags=re.M) for text in (told, made)]
+        self.assertEqual(*unversioned, "deploy/notices.py BINARY >THIRD_PARTY.md")
+        self.assertIn("/usr/local/share/doc/froxel/THIRD_PARTY.md", (DEPLOY / "Dockerfile").read_text())
+
     def test_install_list_has_what_cmake_asks_for(self):
         asked = set()
         for folder in (ROOT / "CMakeLists.txt", *ROOT.glob("server/**/CMakeLists.txt"),
