@@ -171,6 +171,11 @@ void addOutputs(CommandBuilder& command, LoadOptions& options) {
               "File for the requirements as test cases, in JUnit's XML")
         ->excludes("--find");
     command
+        .text("--histograms", "FILE", options.histograms, "",
+              "File for the histogram of each time, in HdrHistogram's log format, to add up the "
+              "runs of several machines")
+        ->excludes("--find");
+    command
         .text("--report", "FILE", options.report, "",
               "HTML with the requirements and plots over time, in one file")
         ->excludes("--find");

@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "load/capacity.h"
 #include "load/client_tls.h"
+#include "load/hdr_log.h"
 #include "load/load_run.h"
 #include "load/requirement.h"
 #include "load/scene_script.h"
@@ -26,6 +27,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -220,8 +222,21 @@ Watched watchRun(const LoadOptions& options,
     return watched;
 }
 
+// All times of the run, each as one interval.
+std::string histogramsOf(const load::RunResult& result) {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const Seconds length(result.seconds);
+    std::string log = load::hdrLogHeader((Seconds(now) - length).count());
+    const load::Samples samples = load::pool(result).measured.samples;
+    for (const load::SampleSeries& series : load::kSampleSeries) {
+        log += load::hdrLogLine(series.name, Seconds(0), length, samples.*series.samples);
+    }
+    return log;
+}
+
 void requireFolders(const LoadOptions& options) {
-    for (const auto& file : {options.json, options.series, options.junit, options.report}) {
+    for (const auto& file :
+         {options.json, options.series, options.junit, options.histograms, options.report}) {
         if (!file.empty() && file != "-") {
             requireFolderOf(file);
         }
@@ -254,6 +269,9 @@ int runPlain(const LoadOptions& options) {
     print(options, loadTable(watched.result, verdict), report);
     if (!options.report.empty()) {
         writeText(options.report, bench::fillReport(page, report).value());
+    }
+    if (!options.histograms.empty()) {
+        writeText(options.histograms, histogramsOf(watched.result));
     }
     if (!options.junit.empty()) {
         writeText(options.junit, junitOf(verdict, watched.result.seconds));

@@ -38,7 +38,8 @@ struct LoadOptions {
     std::filesystem::path json;            // empty: none; so for the following
     std::filesystem::path series;          // .jsonl, .csv or .prom
     std::filesystem::path junit;
-    std::filesystem::path report; // HTML
+    std::filesystem::path histograms; // HdrHistogram's log
+    std::filesystem::path report;     // HTML
     std::filesystem::path web_root;
 };
 

@@ -205,9 +205,10 @@ TEST_F(Load, Requirements_BrokenByASlowServer_ExitWith99AndAreNamed) {
     TestServer server;
     server.device().frame_time = 100ms;
     const std::string junit = folder_ + "/junit.xml";
+    const std::string histograms = folder_ + "/load.hlog";
     const auto end = load(server.port(), {"--seconds", "1", "--viewers", "2", "--require",
                                           "fps>=30, latency.p50<60000", "--require", "errors<=0",
-                                          "--junit", junit});
+                                          "--junit", junit, "--histograms", histograms});
     EXPECT_EQ(end.exit_code, 99);
     EXPECT_NE(end.errors.find("broken requirement fps>=30: "), std::string::npos) << end.errors;
     EXPECT_EQ(std::count(end.errors.begin(), end.errors.end(), '\n'), 1) << end.errors;
@@ -216,6 +217,10 @@ TEST_F(Load, Requirements_BrokenByASlowServer_ExitWith99AndAreNamed) {
     std::ifstream stream(junit);
     const std::string xml{std::istreambuf_iterator<char>(stream), {}};
     EXPECT_NE(xml.find(R"(tests="4" failures="1")"), std::string::npos) << xml;
+    std::ifstream log(histograms);
+    const std::string tags{std::istreambuf_iterator<char>(log), {}};
+    EXPECT_NE(tags.find("\nTag=latency,0.000,"), std::string::npos) << tags;
+    EXPECT_NE(tags.find("\nTag=render,0.000,"), std::string::npos) << tags;
 }
 
 TEST_F(Load, StopEarly_WithASlowServer_EndsLongBeforeTheTime) {
