@@ -61,7 +61,10 @@ def page_packages():
 
 def debian_rows(names, use):
     for source, package in sorted(sources_of(set(names)).items()):
-        text = (Path("/usr/share/doc") / package / "copyright").read_text(encoding="utf-8", errors="replace")
+        path = Path("/usr/share/doc") / package / "copyright"
+        if not path.is_file():
+            sys.exit(f"notices.py: {path} is missing; reinstall {package}")
+        text = path.read_text(encoding="utf-8", errors="replace")
         yield source, licence_of(text), use, text
 
 

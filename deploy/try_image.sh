@@ -29,8 +29,9 @@ build() {
 
 require_packages buildah
 make_debian bookworm "$work/base"
-# What the slim image leaves out, too.
-rm -rf "$work/base"/{var/cache/apt/*,var/lib/apt/lists/*,usr/share/{doc,man,info,locale}/*}
+# What the slim image leaves out, too; it keeps copyright files.
+rm -rf "$work/base"/{var/cache/apt/*,var/lib/apt/lists/*,usr/share/{man,info,locale}/*}
+find "$work/base/usr/share/doc" -type f ! -name copyright -delete
 scratch=$(builder from scratch)
 containers+=("$scratch")
 builder copy --quiet "$scratch" "$work/base" / >/dev/null
