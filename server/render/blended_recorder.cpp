@@ -1,5 +1,6 @@
 #include "render/blended_recorder.h"
 
+#include "render/frame/pass_names.h"
 #include "render/pipelines/barrier.h"
 #include "render/surfaces/blended_passes.h"
 #include "render/surfaces/passes.h"
@@ -66,7 +67,7 @@ void recordPeeled(const FrameContext& frame) {
     const uint32_t layers = peelLayers(frame.plan, frame.draws);
     for (uint32_t layer = 0; layer < layers; ++layer) {
         inParts(frame, size, cost, [layer](const FrameContext& at, const vk::Rect2D& part) {
-            const gpu::PassScope scope(at.slot.timestamps, at.slot.cmd, "peel");
+            const gpu::PassScope scope(at.slot.timestamps, at.slot.cmd, pass::kPeel);
             recordPeelSelect(at, part, layer);
             nextRasterPass(at.slot.cmd);
             recordPeelShade(at, part, layer);

@@ -2,6 +2,7 @@
 
 #include "core/clock.h"
 #include "core/keep_for_good.h"
+#include "render/frame/pass_names.h"
 #include "render/scene/scene_resources.h"
 
 #include <algorithm>
@@ -87,7 +88,7 @@ Result<Drawn> draw(ViewRenderer& view, const FrameInputs& inputs) {
         const double frame_s = stats.frame_us * 1e-6;
         const auto passes_s = secondsOf(stats.passes);
         const Drawn drawn{.lighting_s =
-                              passes_s ? secondsOf(stats.passes, "lighting").value() : frame_s,
+                              passes_s ? secondsOf(stats.passes, pass::kLighting).value() : frame_s,
                           .all_s = passes_s.value_or(frame_s),
                           .estimate_s = work->estimate.count(),
                           .pairs = static_cast<double>(stats.pairs.evaluated)};

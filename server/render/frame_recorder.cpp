@@ -1,6 +1,7 @@
 #include "render/frame_recorder.h"
 
 #include "render/blended_recorder.h"
+#include "render/frame/pass_names.h"
 #include "render/fresh_targets.h"
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/host_copies.h"
@@ -302,6 +303,7 @@ void recordPairs(const FrameContext& frame) {
 }
 
 void recordLists(const FrameContext& frame) {
+    frame.pieces.add(frame.costs.assign());
     recordAssignment({frame.slot.cmd, *frame.scene.shared.assignment(), *frame.slot.assignment},
                      frame.slot.timestamps);
 }
@@ -313,6 +315,7 @@ void recordToHost(const FrameContext& frame) {
         // packed pixels -> copy
         barrier(slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eCopy,
                 Access::eTransferRead);
+        frame.pieces.add(frame.costs.pixelsToHost());
         recordReadback(frame);
     }
     if (*slot.readback->radiance.handle) {
@@ -400,13 +403,13 @@ void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) 
         recordAssignCopy(assign);
     };
     if (assign.slot.inLines()) {
-        const gpu::PassScope scope(timestamps, cmd, "assign_lines");
+        const gpu::PassScope scope(timestamps, cmd, pass::kAssignLines);
         recordAssignLines(assign);
         finish();
         return;
     }
     {
-        const gpu::PassScope scope(timestamps, cmd, "assign_count");
+        const gpu::PassScope scope(timestamps, cmd, pass::kAssignCount);
         recordAssignClear(assign);
         // cleared counters -> first use
         barrier(cmd, Stage::eAllTransfer, Access::eTransferWrite, Stage::eComputeShader,
@@ -417,18 +420,18 @@ void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) 
         next();
     }
     {
-        const gpu::PassScope scope(timestamps, cmd, "assign_scan");
+        const gpu::PassScope scope(timestamps, cmd, pass::kAssignScan);
         recordAssignSum(assign);
         next();
         recordAssignPlace(assign);
         next();
     }
     {
-        const gpu::PassScope scope(timestamps, cmd, "assign_fill");
+        const gpu::PassScope scope(timestamps, cmd, pass::kAssignFill);
         recordAssignFill(assign);
         next();
     }
-    const gpu::PassScope scope(timestamps, cmd, "assign_order");
+    const gpu::PassScope scope(timestamps, cmd, pass::kAssignOrder);
     recordAssignOrder(assign);
     finish();
 }

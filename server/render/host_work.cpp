@@ -449,6 +449,10 @@ FrameCosts HostWork::costs(const FramePlan& plan,
                     .overdraw = std::max(kUsualOverdraw, scene_.overdraw.value_or(0)),
                     .peel_layers =
                         peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
+                    .device_list_lights = on_device_ ? localLightCount() : 0,
+                    .device_lists = on_device_,
+                    .copies_pixels = !scene_.shared.device.traits().is_cpu,
+                    .copies_radiance = inputs_.keep_radiance,
                     .wire_lines = wireLines(plan),
                     .wire_px = debug_.wire_px,
                     .effects = effects};

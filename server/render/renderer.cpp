@@ -385,4 +385,8 @@ const ViewEffects& ViewRenderer::effects() const {
     return impl_->maker.effects();
 }
 
+const std::vector<PassEstimate>& ViewRenderer::prices() const {
+    return impl_->maker.prices();
+}
+
 } // namespace froxel::render

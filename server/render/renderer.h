@@ -24,6 +24,7 @@ namespace froxel::render {
 class DeviceResources;
 class SceneResources;
 class ViewEffects;
+struct PassEstimate;
 
 struct RenderedFrame {
     PixelLease pixels; // with the radiance where it was to be kept
@@ -150,6 +151,8 @@ class ViewRenderer {
 
     // Those that its frames have had, for tests that look into one.
     [[nodiscard]] const ViewEffects& effects() const;
+    // What the passes of the frame begun last take by their estimates, for tests.
+    [[nodiscard]] const std::vector<PassEstimate>& prices() const;
 
   private:
     struct Impl;

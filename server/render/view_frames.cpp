@@ -279,6 +279,7 @@ Result<void> ViewFrames::recordBuilt(FrameSlot& slot,
     const WorkLimits limits = this->limits();
     const FrameCosts costs =
         host_work_.costs(plan, asked.settings.size, effects_.ofFrame(), unitCosts(), limits);
+    prices_ = costs.passes();
     if (auto affordable = costs.check(limits.frame, limits.loop); !affordable) {
         return affordable;
     }

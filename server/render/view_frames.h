@@ -55,6 +55,8 @@ class ViewFrames {
     [[nodiscard]] const ViewTargets* targets() const { return targets_.get(); }
     [[nodiscard]] MaterialSet& materialSet() const { return *host_work_.pose().materialSet(); }
     [[nodiscard]] const ViewEffects& effects() const { return effects_; }
+    // Of the passes of the frame begun last.
+    [[nodiscard]] const std::vector<PassEstimate>& prices() const { return prices_; }
 
   private:
     // Both at the present pace.
@@ -116,6 +118,7 @@ class ViewFrames {
     std::shared_ptr<BlendTargets> blend_;  // null: the last frame has none
     std::shared_ptr<PosedVertices> posed_; // null: no frame yet, or no mesh bends
     FrameDetailsKeeper details_;
+    std::vector<PassEstimate> prices_;
 };
 
 } // namespace froxel::render

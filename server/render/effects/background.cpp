@@ -5,6 +5,7 @@
 #include "render/effects/environment.h"
 #include "render/frame/effect.h"
 #include "render/frame/frame_context.h"
+#include "render/frame/pass_names.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/pipelines/shared_pipeline.h"
 
@@ -31,7 +32,7 @@ class Background final : public Effect {
     explicit Background(SceneResources& /*scene*/) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({"background", timeOver(costOf(costs), costs.load().drawn)});
+        passes.push_back({pass::kBackground, timeOver(costOf(costs), costs.load().drawn)});
     }
     void record(const FrameContext& frame) const override {
         inParts(frame, frame.slot.targets->size, costOf(frame.costs), recordPart);
@@ -45,7 +46,7 @@ class Background final : public Effect {
     }
     // Reads depth, writes radiance.
     static void recordPart(const FrameContext& frame, const vk::Rect2D& region) {
-        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "background");
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kBackground);
         const auto& cmd = frame.slot.cmd;
         frame.scene.shared.stored<BackgroundPipeline>().pipeline.bind(cmd,
                                                                       frame.scene.shared.variants);

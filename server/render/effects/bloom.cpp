@@ -7,6 +7,7 @@
 #include "render/frame/effect_targets.h"
 #include "render/frame/frame_context.h"
 #include "render/frame/need_list.h"
+#include "render/frame/pass_names.h"
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/screen_groups.h"
 
@@ -170,7 +171,7 @@ class Bloom final : public Effect {
         for (const BloomStep& step : plan_.steps) {
             sum += timeOver(stepCost(costs, step), targetSize(step));
         }
-        passes.push_back({"bloom", sum});
+        passes.push_back({pass::kBloom, sum});
     }
 
     void addMemory(NeedList& need) const override {
@@ -226,7 +227,7 @@ class Bloom final : public Effect {
 
     void recordStep(const FrameContext& frame, size_t index, const vk::Rect2D& part) const {
         const auto& cmd = frame.slot.cmd;
-        const gpu::PassScope scope(frame.slot.timestamps, cmd, "bloom");
+        const gpu::PassScope scope(frame.slot.timestamps, cmd, pass::kBloom);
         const BloomStep& step = plan_.steps[index];
         auto& shared = frame.scene.shared.stored<BloomPipelines>();
         cmd.bindPipeline(

@@ -7,6 +7,7 @@
 #include "render/frame/effect_targets.h"
 #include "render/frame/frame_context.h"
 #include "render/frame/need_list.h"
+#include "render/frame/pass_names.h"
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/pipelines/shared_pipeline.h"
@@ -105,7 +106,7 @@ class Exposure final : public Effect {
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
         const auto& drawn = costs.load().drawn;
-        passes.push_back({"exposure", timeOver(countingCost(costs), invocationsOver(drawn))});
+        passes.push_back({pass::kExposure, timeOver(countingCost(costs), invocationsOver(drawn))});
     }
     void addMemory(NeedList& need) const override {
         need.buffer("exposure histogram", kCountBytes);
@@ -186,14 +187,14 @@ void Exposure::bind(const FrameContext& frame, SharedPipeline& pipeline) {
 
 // Reads radiance and depth.
 void Exposure::recordHistogram(const FrameContext& frame, const vk::Rect2D& invocations) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "exposure");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kExposure);
     bind(frame, frame.scene.shared.stored<ExposurePipelines>().histogram);
     dispatchOver(frame.slot.cmd, invocations);
 }
 
 // Reads the counts, changes the frame's exposure.
 void Exposure::recordMeter(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "exposure_meter");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kExposureMeter);
     bind(frame, frame.scene.shared.stored<ExposurePipelines>().meter);
     frame.slot.cmd.dispatch(1, 1, 1);
 }

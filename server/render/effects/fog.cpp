@@ -9,6 +9,7 @@
 #include "render/frame/effect_targets.h"
 #include "render/frame/frame_context.h"
 #include "render/frame/need_list.h"
+#include "render/frame/pass_names.h"
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/screen_groups.h"
 
@@ -133,9 +134,9 @@ class Fog final : public Effect {
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
         if (hasVolume()) {
-            passes.push_back({"fog_scatter", timeOver(scatterCost(costs), nodes())});
+            passes.push_back({pass::kFogScatter, timeOver(scatterCost(costs), nodes())});
         }
-        passes.push_back({"fog", timeOver(costs.screen(), costs.load().drawn)});
+        passes.push_back({pass::kFog, timeOver(costs.screen(), costs.load().drawn)});
     }
     double loopCost(const UnitCosts& unit) const override {
         return hasVolume() ? pairCost(unit).loop : 0;
@@ -252,7 +253,7 @@ void Fog::bind(const FrameContext& frame,
 
 // Reads lights and lists; writes the volume.
 void Fog::recordScatter(const FrameContext& frame, const vk::Rect2D& nodes) const {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog_scatter");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kFogScatter);
     const uint32_t noise = (plan_.way & kFogNoise) != 0 ? io::kOutputFogNoise : 0U;
     const uint32_t lights = fogLightFlags(frame.plan.forward_light_flags) & ~io::kLightDirectional;
     bind(frame, FogShader::kScatter, {0, lights, noise},
@@ -263,7 +264,7 @@ void Fog::recordScatter(const FrameContext& frame, const vk::Rect2D& nodes) cons
 
 // Adds it up from front to back.
 void Fog::recordIntegrate(const FrameContext& frame) const {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog_integrate");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kFogIntegrate);
     bind(frame, FogShader::kIntegrate, {}, scene_.shared.stored<FogPipelines>().volumeLayout(),
          frame.slot.effect_targets.get<FogVolume>().set());
     frame.slot.cmd.dispatch(screenGroups(fog_.node_count_x), screenGroups(fog_.node_count_y), 1);
@@ -271,7 +272,7 @@ void Fog::recordIntegrate(const FrameContext& frame) const {
 
 // Reads volume and depth; radiance is seen through fog.
 void Fog::recordApply(const FrameContext& frame, const vk::Rect2D& region) const {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kFog);
     const uint32_t lights = fogLightFlags(frame.plan.forward_light_flags) & io::kLightDirectional;
     bind(frame, FogShader::kApply, {0, lights, plan_.blended_output_flags},
          frame.scene.shared.pipelines.screenPipelineLayout(), *frame.slot.screen_set);

@@ -4,6 +4,7 @@
 #include "gpu/pipeline.h"
 #include "render/frame/effect.h"
 #include "render/frame/frame_context.h"
+#include "render/frame/pass_names.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/pipelines/shared_pipeline.h"
 
@@ -78,7 +79,7 @@ class Fxaa final : public Effect {
     explicit Fxaa(SceneResources& scene) : scene_(scene) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({"fxaa", timeOver(costs.screen(), costs.load().shown)});
+        passes.push_back({pass::kFxaa, timeOver(costs.screen(), costs.load().shown)});
     }
 
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
@@ -94,7 +95,7 @@ class Fxaa final : public Effect {
   private:
     static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
         const auto& cmd = frame.slot.cmd;
-        const gpu::PassScope scope(frame.slot.timestamps, cmd, "fxaa");
+        const gpu::PassScope scope(frame.slot.timestamps, cmd, pass::kFxaa);
         auto& shared = frame.scene.shared.stored<FxaaPipeline>();
         shared.pipeline.bind(cmd, frame.scene.shared.variants);
         const std::array sets = {*frame.slot.frame_set, *frame.slot.stored.get<FxaaSet>().set};

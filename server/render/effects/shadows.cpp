@@ -10,6 +10,7 @@
 #include "render/frame/effect_targets.h"
 #include "render/frame/frame_context.h"
 #include "render/frame/need_list.h"
+#include "render/frame/pass_names.h"
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/host_copies.h"
 #include "render/surfaces/geometry_draws.h"
@@ -150,7 +151,8 @@ class Shadows final : public Effect {
     }
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
         if (!changed_.empty()) {
-            passes.push_back({"shadows", static_cast<double>(changed_.size()) * faceTime(costs)});
+            passes.push_back(
+                {pass::kShadows, static_cast<double>(changed_.size()) * faceTime(costs)});
         }
     }
     void addMemory(NeedList& need) const override {
@@ -269,7 +271,7 @@ void Shadows::recordOwn(const FrameContext& frame) const {
 void Shadows::recordFaces(const FrameContext& frame,
                           std::span<const ShadowFace> faces,
                           bool first) const {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "shadows");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kShadows);
     const auto& cmd = frame.slot.cmd;
     const auto& targets = frame.slot.effect_targets.get<ShadowTargets>();
     const bool whole = changed_.size() == frame_.faces.size();

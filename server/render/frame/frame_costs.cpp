@@ -1,5 +1,7 @@
 #include "render/frame/frame_costs.h"
 
+#include "render/frame/pass_names.h"
+
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -170,33 +172,33 @@ void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
     };
     if (!plan.reused) {
         if (plan.visibility) {
-            add("visibility", ids());
+            add(pass::kVisibility, ids());
         } else if (plan.depth_prepass || !(plan.forward || plan.gbuffer)) {
-            add("depth_prepass", depthPrepass());
+            add(pass::kDepthPrepass, depthPrepass());
         }
         if (plan.gbuffer) {
-            plan.visibility ? add("resolve", resolve()) : add("gbuffer", gbuffer());
+            plan.visibility ? add(pass::kResolve, resolve()) : add(pass::kGbuffer, gbuffer());
         }
     }
     if (plan.visibility_shade) {
-        add("shade", resolve());
+        add(pass::kShade, resolve());
     } else if (plan.forward) {
-        add("forward", forward());
+        add(pass::kForward, forward());
     }
     if (plan.lighting_compute || plan.lighting_fragment) {
-        add("lighting", lighting());
+        add(pass::kLighting, lighting());
     }
     if (plan.layers) {
-        add("layers", layers());
+        add(pass::kLayers, layers());
     }
     if (plan.toon_pass) {
-        add("toon", screen());
+        add(pass::kToon, screen());
     }
     if (plan.outline) {
-        add("outline", screen());
+        add(pass::kOutline, screen());
     }
     if (plan.count_pairs) {
-        add("count_pairs", countPairs());
+        add(pass::kCountPairs, countPairs());
     }
 }
 
@@ -214,38 +216,55 @@ void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
     if (inputs_.plan.transparent) {
         const bool peeled = inputs_.plan.transparency == settings::Transparency::kPeeled;
         const double layers = peeled ? inputs_.peel_layers : 1;
-        passes.push_back({peeled ? "peel" : "transparent", layers * timeOver(blended(), drawn)});
+        passes.push_back(
+            {peeled ? pass::kPeel : pass::kTransparent, layers * timeOver(blended(), drawn)});
         if (inputs_.plan.over_unlit) {
-            passes.push_back({"blend_over_unlit", timeOver(screen(), drawn)});
+            passes.push_back({pass::kBlendOverUnlit, timeOver(screen(), drawn)});
+        } else if (inputs_.plan.blendsApart()) {
+            passes.push_back({pass::kBlendResolve, timeOver(screen(), drawn)});
         }
+    }
+}
+
+void FrameCosts::addToHost(std::vector<PassEstimate>& passes) const {
+    if (inputs_.copies_pixels) {
+        passes.push_back({pass::kReadback, pixelsToHost()});
+    }
+    if (inputs_.copies_radiance) {
+        passes.push_back({pass::kRadianceReadback, timeOver(radianceToHost(), inputs_.drawn)});
     }
 }
 
 std::vector<PassEstimate> FrameCosts::passes() const {
     std::vector<PassEstimate> passes;
     if (inputs_.plan.pose && !inputs_.plan.pose_reused) {
-        passes.push_back({"pose", pose()});
+        passes.push_back({pass::kPose, pose()});
+    }
+    if (inputs_.device_lists) {
+        passes.push_back({pass::kAssign, assign()});
     }
     addEffects(EffectPlace::kLights, passes);
     if (settings::replacesPicture(inputs_.plan.debug)) {
         if (inputs_.plan.debug == settings::DebugView::kOverdraw) {
-            passes.push_back({"overdraw", timeOver(gbuffer(), inputs_.drawn)});
+            passes.push_back({pass::kOverdraw, timeOver(gbuffer(), inputs_.drawn)});
         } else {
             addSurfaces(passes);
         }
-        passes.push_back({"debug_view", timeOver(debugView(), inputs_.drawn)});
+        passes.push_back({pass::kDebugView, timeOver(debugView(), inputs_.drawn)});
+        addToHost(passes);
         return passes;
     }
     addSurfaces(passes);
     addBlended(passes);
     addEffects(EffectPlace::kPicture, passes);
     if (inputs_.wire_lines > 0) {
-        passes.push_back({"wires", wires(inputs_.wire_lines)});
+        passes.push_back({pass::kWires, wires(inputs_.wire_lines)});
     }
     if (inputs_.plan.tonemap) {
-        passes.push_back({"tonemap", timeOver(screen(), inputs_.shown)});
+        passes.push_back({pass::kTonemap, timeOver(screen(), inputs_.shown)});
     }
     addEffects(EffectPlace::kPixels, passes);
+    addToHost(passes);
     return passes;
 }
 

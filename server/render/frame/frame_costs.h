@@ -41,8 +41,12 @@ struct CostInputs {
     uint64_t posed_vertices = 0;
     uint32_t resolve_count = 1; // dispatches over the picture where ids are resolved
     uint32_t peel_layers = 0;
-    uint64_t wire_lines = 0; // of an overlay
-    double wire_px = 0;      // that they cover
+    uint32_t device_list_lights = 0; // local lights whose lists the device makes
+    bool device_lists = false;       // it makes lists
+    bool copies_pixels = false;      // packed pixels are copied to the host
+    bool copies_radiance = false;    // so is the linear picture
+    uint64_t wire_lines = 0;         // of an overlay
+    double wire_px = 0;              // that they cover
     std::span<const ActiveEffect> effects = {};
 };
 
@@ -88,6 +92,14 @@ class FrameCosts {
     // Over another one: tone map, filters, what blending came to.
     [[nodiscard]] RegionCost screen() const;
     [[nodiscard]] static RegionCost radianceToHost();
+    [[nodiscard]] Seconds pixelsToHost() const {
+        const auto& size = inputs_.shown;
+        return Seconds(static_cast<double>(size.width_px) * size.height_px * unit_.copied_pixel);
+    }
+    // Light lists on the device.
+    [[nodiscard]] Seconds assign() const {
+        return Seconds(unit_.assign + inputs_.device_list_lights * unit_.assign_light);
+    }
     [[nodiscard]] Seconds wires(uint64_t line_count) const {
         const auto lines = static_cast<double>(std::max<uint64_t>(inputs_.wire_lines, 1));
         return Seconds(static_cast<double>(line_count) *
@@ -125,6 +137,7 @@ class FrameCosts {
     void addSurfaces(std::vector<PassEstimate>& passes) const;
     void addEffects(EffectPlace place, std::vector<PassEstimate>& passes) const;
     void addBlended(std::vector<PassEstimate>& passes) const;
+    void addToHost(std::vector<PassEstimate>& passes) const;
 
     UnitCosts unit_;
     CostInputs inputs_;

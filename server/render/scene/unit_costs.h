@@ -28,6 +28,9 @@ struct UnitCosts {
     double resolve_pixel = 0; // likewise in compute, from ids; for each dispatch over the picture
     double lit_pixel = 0;     // shading without lights
     double screen_pixel = 0;  // another pass over the picture
+    double copied_pixel = 0;  // a packed pixel on its way to the host, which a CPU device has not
+    double assign = 0;        // light lists on the device, however few lights
+    double assign_light = 0;  // each light there
     PairCost compute;
     PairCost fragment;
     PairCost counting;     // pairs that are counted, by debug views too
@@ -46,7 +49,8 @@ struct UnitCosts {
     unit.lights_scale *= lights;
     for (double UnitCosts::*cost :
          {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::area_pair,
-          &UnitCosts::wire_line, &UnitCosts::wire_pixel}) {
+          &UnitCosts::wire_line, &UnitCosts::wire_pixel, &UnitCosts::copied_pixel,
+          &UnitCosts::assign, &UnitCosts::assign_light}) {
         unit.*cost *= lights;
     }
     for (PairCost UnitCosts::*cost :
@@ -79,6 +83,8 @@ inline constexpr UnitCosts kCpuUnitCosts{.is_cpu = true,
                                          .resolve_pixel = 9e-8,
                                          .lit_pixel = 4e-8,
                                          .screen_pixel = 4e-8,
+                                         .assign = 3e-3,
+                                         .assign_light = 4e-6,
                                          .compute = {5e-9, 1.7e-6},
                                          .fragment = {2.2e-8, 4.8e-6},
                                          .counting = {1.2e-8, 6.5e-7},
@@ -92,6 +98,9 @@ inline constexpr UnitCosts kGpuUnitCosts{.posed_vertex = 1e-9,
                                          .resolve_pixel = 1e-10,
                                          .lit_pixel = 1e-10,
                                          .screen_pixel = 1e-10,
+                                         .copied_pixel = 8e-11,
+                                         .assign = 5e-5,
+                                         .assign_light = 1.25e-8,
                                          .compute = {8e-12, 1.3e-7},
                                          .fragment = {4.2e-10, 1.1e-6},
                                          .counting = {9e-11, 1e-6},

@@ -1,5 +1,6 @@
 #include "render/surfaces/blended_passes.h"
 
+#include "render/frame/pass_names.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/surfaces/geometry_draws.h"
 #include "render/surfaces/rendering_scope.h"
@@ -25,7 +26,7 @@ void bindLayer(const FrameContext& frame, vk::DescriptorSet set) {
 } // namespace
 
 void recordWeighted(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "weighted");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kWeighted);
     const auto& targets = *frame.slot.blend;
     const std::array colors = {attachment(targets.sums, LoadOp::eClear, clearColor(0, 1)),
                                attachment(targets.weights, LoadOp::eClear, clearColor(0, 0))};
@@ -56,7 +57,7 @@ void recordPeelShade(const FrameContext& frame, const vk::Rect2D& region, uint32
 }
 
 void recordPeelCount(const FrameContext& frame, const vk::Rect2D& region, uint32_t layers) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "peel_count");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kPeelCount);
     frame.slot.overflow->begin(frame.slot.cmd);
     {
         const auto depth = attachment(frame.slot.blend->layer_depth, LoadOp::eClear, farDepth());
@@ -68,7 +69,7 @@ void recordPeelCount(const FrameContext& frame, const vk::Rect2D& region, uint32
 }
 
 void recordBlendResolve(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "blend_resolve");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kBlendResolve);
     const auto& cmd = frame.slot.cmd;
     const auto& pipelines = frame.scene.shared.pipelines;
     const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
@@ -83,7 +84,7 @@ void recordBlendResolve(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordBlendOverUnlit(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "blend_over_unlit");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kBlendOverUnlit);
     const auto& cmd = frame.slot.cmd;
     auto& pipelines = frame.scene.shared.pipelines;
     cmd.bindPipeline(

@@ -1,6 +1,7 @@
 #include "render/surfaces/passes.h"
 
 #include "interface/constants.h"
+#include "render/frame/pass_names.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/surfaces/geometry_draws.h"
 #include "render/surfaces/rendering_scope.h"
@@ -63,7 +64,7 @@ void dispatch(const FrameContext& frame,
 // Calls record(sets) in a rendering of lines over radiance.
 template <class Record>
 void inWires(const FrameContext& frame, Record record) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "wires");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kWires);
     const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
     const auto& size = frame.slot.targets->size;
     const Rendering rendering(frame, {{0, 0}, {size.width_px, size.height_px}}, colors, nullptr);
@@ -75,18 +76,18 @@ void inWires(const FrameContext& frame, Record record) {
 } // namespace
 
 void recordPoseVertices(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "pose");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kPose);
     frame.scene.poser()->recordVertices(frame.slot.cmd, frame.slot.pose->set());
 }
 
 void recordPoseFlatNormals(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "pose");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kPose);
     frame.scene.poser()->recordFlatNormals(frame.slot.cmd, frame.slot.pose->set());
 }
 
 void recordDepthPrepass(const FrameContext& frame, const vk::Rect2D& region) {
     inGroups(frame, GeometryPass::kDepth, frame.draws.solid, [&](const auto& groups, bool first) {
-        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "depth_prepass");
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kDepthPrepass);
         const SampleScope samples(frame, true);
         const auto depth = attachment(frame.slot.targets->depth,
                                       first ? LoadOp::eClear : LoadOp::eLoad, farDepth());
@@ -99,7 +100,7 @@ void recordForwardPass(const FrameContext& frame, const vk::Rect2D& region) {
     const bool after_depth = frame.plan.depth_prepass;
     const auto pass = after_depth ? GeometryPass::kForwardAfterDepth : GeometryPass::kForward;
     inGroups(frame, pass, frame.draws.solid, [&](const auto& groups, bool first) {
-        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "forward");
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kForward);
         const SampleScope samples(frame, !after_depth);
         const std::array colors = {attachment(frame.slot.targets->radiance,
                                               first ? LoadOp::eClear : LoadOp::eLoad, nothing())};
@@ -115,7 +116,7 @@ void recordGbuffer(const FrameContext& frame, const vk::Rect2D& region) {
     const bool after_depth = frame.plan.depth_prepass;
     const auto pass = after_depth ? GeometryPass::kGbufferAfterDepth : GeometryPass::kGbuffer;
     inGroups(frame, pass, frame.draws.solid, [&](const auto& groups, bool first) {
-        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "gbuffer");
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kGbuffer);
         const SampleScope samples(frame, !after_depth);
         // Words of empty pixels are never read: their depth says so.
         std::vector colors = {
@@ -135,13 +136,13 @@ void recordGbuffer(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordLightingCompute(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "lighting");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kLighting);
     dispatch(frame, ScreenPass::kLighting,
              {0, frame.plan.lighting_light_flags, frame.plan.lighting_output_flags}, region);
 }
 
 void recordLightingFragment(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "lighting");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kLighting);
     // Where compute rasters, the depth buffer is another image.
     const bool covered_alone = !frame.plan.compute_raster;
     const std::array colors = {attachment(frame.slot.targets->radiance,
@@ -167,7 +168,7 @@ void recordLayers(const FrameContext& frame, const vk::Rect2D& region) {
     });
     const auto pass = GeometryPass::kForwardAfterDepth;
     inGroups(frame, pass, layered, [&](const auto& groups, bool) {
-        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "layers");
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kLayers);
         const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
         const auto depth = attachment(frame.slot.targets->depth, LoadOp::eLoad);
         const Rendering rendering(frame, region, colors, &depth);
@@ -176,21 +177,21 @@ void recordLayers(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordToon(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "toon");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kToon);
     dispatch(frame, ScreenPass::kToon,
              {0, frame.plan.toon_bands ? io::kLightBands : 0U, frame.plan.toon_output_flags},
              region);
 }
 
 void recordOutline(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "outline");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kOutline);
     dispatch(frame, ScreenPass::kOutline, {0, 0, frame.plan.gbuffer_output_flags}, region);
 }
 
 void recordTransparent(const FrameContext& frame, const vk::Rect2D& region) {
     const auto pass = GeometryPass::kTransparent;
     inGroups(frame, pass, frame.draws.transparent, [&](const auto& groups, bool first) {
-        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "transparent");
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransparent);
         const auto& sums =
             frame.plan.over_unlit ? frame.slot.blend->sums : frame.slot.targets->radiance;
         const auto load = frame.plan.over_unlit && first ? LoadOp::eClear : LoadOp::eLoad;
@@ -202,12 +203,12 @@ void recordTransparent(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordTonemap(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "tonemap");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTonemap);
     dispatch(frame, ScreenPass::kTonemap, {0, 0, frame.plan.tonemap_output_flags}, region);
 }
 
 void recordOverdraw(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "overdraw");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kOverdraw);
     const vk::ClearValue none = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 0.0F});
     const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eClear, none)};
     const auto depth = attachment(frame.slot.targets->depth, LoadOp::eClear, farDepth());
@@ -216,7 +217,7 @@ void recordOverdraw(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordDebugView(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "debug_view");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kDebugView);
     frame.scene.shared.debug().recordValues(
         frame.slot.cmd, {*frame.slot.frame_set, *frame.slot.screen_set}, frame.plan.debug,
         frame.plan.lighting_light_flags, frame.plan.gbuffer_output_flags, frame.debug->values,
@@ -238,7 +239,7 @@ void recordClusterWires(const FrameContext& frame, uint32_t first_line, uint32_t
 }
 
 void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "count_pairs");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCountPairs);
     frame.slot.pairs->recordCount(
         frame.slot.cmd, frame.scene.shared.pairs(), *frame.slot.frame_set, *frame.slot.screen_set,
         frame.plan.forward ? frame.plan.forward_light_flags : frame.plan.lighting_light_flags,
@@ -246,14 +247,14 @@ void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordReadback(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "readback");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kReadback);
     const auto& pixels = frame.slot.targets->pixels;
     frame.slot.cmd.copyBuffer(*pixels.handle, *frame.slot.readback->buffer.handle,
                               vk::BufferCopy{.size = pixels.size_bytes});
 }
 
 void recordRadianceReadback(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "radiance_readback");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRadianceReadback);
     const uint32_t row_px = frame.slot.targets->size.width_px;
     const auto x = static_cast<vk::DeviceSize>(region.offset.x);
     const auto y = static_cast<vk::DeviceSize>(region.offset.y);

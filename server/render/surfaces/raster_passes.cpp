@@ -1,5 +1,6 @@
 #include "render/surfaces/raster_passes.h"
 
+#include "render/frame/pass_names.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/scene/compute_raster.h"
 #include "render/surfaces/visibility_binding.h"
@@ -56,7 +57,7 @@ vk::BufferImageCopy wholeImage(const FrameContext& frame, vk::ImageAspectFlags a
 } // namespace
 
 void recordRasterClear(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_clear");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterClear);
     const io::RasterCounts counts{.meshlets = 0, .one_y = 1, .one_z = 1, .padding0 = 0, .large = 0};
     frame.slot.cmd.fillBuffer(*frame.slot.targets->words.handle, 0, VK_WHOLE_SIZE, 0);
     frame.slot.cmd.updateBuffer<io::RasterCounts>(*raster(frame).counts.handle, 0, counts);
@@ -69,7 +70,7 @@ void recordRasterSpoil(const FrameContext& frame) {
 }
 
 void recordRasterCull(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "cull");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCull);
     bindVisibilityCompute(frame, frame.visibility->pipelines.compute(Step::kCullList));
     pushVisibilityWords(frame, {frame.plan.cull_meshlets ? 0U : 1U,
                                 static_cast<uint32_t>(frame.visibility->groups.size())});
@@ -77,19 +78,19 @@ void recordRasterCull(const FrameContext& frame) {
 }
 
 void recordRasterMeshlets(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_meshlets");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterMeshlets);
     drawMaterials(frame, Step::kMeshlets,
                   [&] { frame.slot.cmd.dispatchIndirect(*raster(frame).counts.handle, 0); });
 }
 
 void recordRasterBlocks(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_blocks");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterBlocks);
     drawMaterials(frame, Step::kBlocks,
                   [&] { frame.slot.cmd.dispatch(io::kRasterBlockGroups, 1, 1); });
 }
 
 void recordRasterUnpack(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_unpack");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterUnpack);
     bindVisibilityCompute(frame, frame.visibility->pipelines.compute(Step::kUnpack));
     const auto& size = frame.slot.targets->size;
     frame.slot.cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);

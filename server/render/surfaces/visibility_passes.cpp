@@ -1,6 +1,7 @@
 #include "render/surfaces/visibility_passes.h"
 
 #include "interface/constants.h"
+#include "render/frame/pass_names.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/surfaces/rendering_scope.h"
 #include "render/surfaces/visibility_binding.h"
@@ -107,7 +108,7 @@ void recordEmptyDraws(const FrameContext& frame) {
 }
 
 void recordCull(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "cull");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCull);
     bindVisibilityCompute(frame, frame.visibility->pipelines.cull());
     pushVisibilityWords(frame, {frame.plan.cull_meshlets ? 0U : 1U,
                                 static_cast<uint32_t>(frame.visibility->groups.size())});
@@ -115,14 +116,14 @@ void recordCull(const FrameContext& frame) {
 }
 
 void recordCompact(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "compact");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCompact);
     bindVisibilityCompute(frame, frame.visibility->pipelines.compact());
     pushVisibilityWords(frame, {0, static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 
 void recordVisibility(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "visibility");
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kVisibility);
     // Ids of empty pixels are never read: their depth says so.
     const std::array colors = {
         attachment(frame.slot.targets->ids, vk::AttachmentLoadOp::eDontCare)};
@@ -136,7 +137,7 @@ void recordVisibility(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordVisibilityGbuffer(const FrameContext& frame, const vk::Rect2D& region) {
-    resolve(frame, region, "resolve", io::kResolveLast, keptFlag(frame), [&] {
+    resolve(frame, region, pass::kResolve, io::kResolveLast, keptFlag(frame), [&] {
         return frame.visibility->pipelines.gbuffer(
             {frame.visibility->material_flags, 0,
              frame.plan.gbuffer_output_flags | depthFlag(frame)});
@@ -144,7 +145,7 @@ void recordVisibilityGbuffer(const FrameContext& frame, const vk::Rect2D& region
 }
 
 void recordVisibilityShade(const FrameContext& frame, const vk::Rect2D& region) {
-    resolve(frame, region, "shade", io::kResolveLast, keptFlag(frame), [&] {
+    resolve(frame, region, pass::kShade, io::kResolveLast, keptFlag(frame), [&] {
         return frame.visibility->pipelines.shade(
             {frame.visibility->material_flags & ~frame.plan.forward_unused_material_flags,
              frame.plan.lighting_light_flags, frame.plan.lighting_output_flags | depthFlag(frame)});
@@ -153,7 +154,7 @@ void recordVisibilityShade(const FrameContext& frame, const vk::Rect2D& region) 
 
 void recordVisibilityLayers(const FrameContext& frame, const vk::Rect2D& region) {
     // Depths are those of planes since the G-buffer was filled.
-    resolve(frame, region, "layers", 0, io::kResolveLayers | io::kResolveReused, [&] {
+    resolve(frame, region, pass::kLayers, 0, io::kResolveLayers | io::kResolveReused, [&] {
         return frame.visibility->pipelines.shade({frame.visibility->material_flags,
                                                   frame.plan.lighting_light_flags,
                                                   io::kOutputRadiance});
