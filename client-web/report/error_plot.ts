@@ -8,7 +8,8 @@ import { layoutOf, timeMs } from './results';
 import { clear, logAxis, type LogAxis } from './scales';
 import { kMargin, xAxis, xGrid, yAxis } from './axes';
 import { kDot, type Shape } from './marks';
-import { errorText, kClockNames, msText, words } from './text';
+import { errorText, kClockNames, msText } from './text';
+import { words } from './words';
 
 /** An error to plot: its name, its axis, and where a row has it (null: nowhere). */
 export interface Metric {

@@ -8,7 +8,8 @@ import type { Clock, Results, Row } from './results';
 import { layoutOf } from './results';
 import { card, place, type Section } from './sections';
 import { legend, table } from './table';
-import { errorText, kNone, msText, spreadText, words } from './text';
+import { errorText, kNone, msText, spreadText } from './text';
+import { words } from './words';
 
 /** A row on the front of either metric, with its number there. */
 interface FrontRow {

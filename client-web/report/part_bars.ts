@@ -4,7 +4,7 @@ import * as Plot from '@observablehq/plot';
 
 import { nameAxis, nameMargin, xAxis, xGrid } from './axes';
 import type { Row, Sweep } from './results';
-import { words } from './text';
+import { words } from './words';
 
 export interface Part {
   readonly series: string;

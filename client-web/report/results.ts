@@ -1,7 +1,7 @@
 // The JSON of `froxel bench`, schema froxel.bench.v1 (tests/bench/results/README.md), as far as the report
 // reads it. Numbers that JSON cannot hold (NaN, infinity) come as null.
 
-import { words } from './text';
+import { words } from './words';
 
 export const kSchema = 'froxel.bench.v1';
 

@@ -10,7 +10,8 @@ import { shortNumber } from './scales';
 import { streamPlot, streamTable } from './stream_plot';
 import { referenceShapes, referencesOf, sweepPlot } from './sweep_plot';
 import { commandLines, legend, table, type Column } from './table';
-import { errorText, factorText, kNone, msText, psnrText, spreadText, words } from './text';
+import { errorText, factorText, kNone, msText, psnrText, spreadText } from './text';
+import { words } from './words';
 
 export interface Section {
   readonly id: string;

@@ -8,7 +8,8 @@ import { shapesOf, type Shape } from './marks';
 import type { Clock, Published, Summary, Sweep } from './results';
 import { timeMs } from './results';
 import { apart, logAxis, shortNumber, spansDecades } from './scales';
-import { kClockNames, msText, words } from './text';
+import { kClockNames, msText } from './text';
+import { words } from './words';
 
 export interface SweepPlotOptions {
   readonly clock: Clock;

@@ -19,9 +19,6 @@ export const kClockWords: Readonly<Record<Clock, string>> = {
   host_us: 'the host’s work until submission',
 };
 
-/** `clustered_deferred` as `clustered deferred`. */
-export const words = (name: string): string => name.replaceAll('_', ' ');
-
 /** An error: 0 as 0, others with three digits. */
 export function errorText(value: number | null | undefined): string {
   if (value === null || value === undefined) return kNone;

@@ -23,13 +23,11 @@ class ByteCounter {
     friend class boost::beast::rate_policy_access;
     static constexpr size_t kAll = std::numeric_limits<size_t>::max();
     // Names that Beast calls.
-    // NOLINTBEGIN(readability-identifier-naming)
     [[nodiscard]] size_t available_read_bytes() const { return kAll; }
     [[nodiscard]] size_t available_write_bytes() const { return kAll; }
     void transfer_read_bytes(size_t bytes) { received_ += bytes; }
     void transfer_write_bytes(size_t bytes) { sent_ += bytes; }
     void on_timer() const {}
-    // NOLINTEND(readability-identifier-naming)
 
     uint64_t received_ = 0;
     uint64_t sent_ = 0;

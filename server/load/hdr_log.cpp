@@ -81,10 +81,8 @@ Bytes histogramOf(const std::vector<int64_t>& counts) {
 Bytes compressed(const Bytes& bytes) {
     Bytes packed(compressBound(bytes.size()), '\0');
     uLongf size = packed.size();
-    // NOLINTBEGIN: zlib's bytes are unsigned
     const int status = compress(reinterpret_cast<Bytef*>(packed.data()), &size,
                                 reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
-    // NOLINTEND
     FROXEL_ASSERT(status == Z_OK, "compressBound() is enough");
     packed.resize(size);
     Bytes framed;

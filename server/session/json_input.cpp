@@ -185,10 +185,10 @@ struct Place {
     }
 };
 
-// NOLINTNEXTLINE(misc-no-recursion): as deep as the schema
+// Recurses as deep as the schema.
 std::optional<Rejection> readObject(const Json& object, Message& message);
 
-// NOLINTNEXTLINE(misc-no-recursion): as deep as the schema
+// Recurses as deep as the schema.
 std::optional<Rejection> readValue(const Json& value, const Place& place) {
     const FieldDescriptor& field = place.field;
     if (field.message_type() != nullptr) {
@@ -251,7 +251,7 @@ std::optional<Rejection> alreadyThere(const Message& message, const FieldDescrip
 }
 
 // Each member of an object, where the schema has it.
-// NOLINTNEXTLINE(misc-no-recursion): as deep as the schema
+// Recurses as deep as the schema.
 std::optional<Rejection> readObject(const Json& object, Message& message) {
     const Descriptor& type = *message.GetDescriptor();
     if (!object.is_object()) {

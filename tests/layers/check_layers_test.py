@@ -6,7 +6,7 @@ from pathlib import Path
 
 from check_layers import (check_built, check_committed, check_file, check_house, check_tree, check_wings,
                           dependencies, hints, wings)
-from page_layers import check_module, check_order
+from page_layers import check_circles, check_module, check_order
 
 MAY_INCLUDE = {"core": set(), "view": {"core"}, "session": {"core", "view", "protocol"}, "render": {"gpu"},
                "gpu": {"core"}, "net": {"core"}, "load": {"core"}, "app": {"gpu"}, "stream": {"render"}, "protocol": set()}
@@ -131,6 +131,11 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(list(check_order(MAY_IMPORT)), [])
         self.assertEqual(len(list(check_order({"a": ["b"], "b": ["a"]}))), 1)
         self.assertEqual(len(list(check_order({"a": ["a"]}))), 1)
+
+    def test_modules_of_the_page_in_a_circle(self):
+        self.assertEqual(list(check_circles({"a": {"b", "c"}, "b": {"c"}, "c": {"elsewhere"}})), [])
+        self.assertEqual(list(check_circles({"a": {"b"}, "b": {"c"}, "c": {"b"}, "d": {"d"}})),
+                         ["client-web: b, c import one another", "client-web: d import one another"])
 
     def test_generated_code(self):
         built = ["protocol/a.pb.h", "client-web/src/gen/a_pb.ts", "shaders/a.spv"]

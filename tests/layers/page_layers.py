@@ -51,12 +51,33 @@ def check_module(path, lines, may_import):
                 yield f"{PAGE}/{path}:{number}: {layer} may import {allowed}, not {module} (layers of package.json)"
 
 
+def check_circles(imports):
+    """Yields each module that can come to itself by imports, which are {module: modules}."""
+    def reached_from(start):
+        found, waiting = set(), [start]
+        while waiting:
+            for module in imports.get(waiting.pop(), ()):
+                if module not in found:
+                    found.add(module)
+                    waiting.append(module)
+        return found
+
+    circles = {frozenset(other for other in reached_from(module) if module in reached_from(other))
+               for module in sorted(imports) if module in reached_from(module)}
+    for circle in sorted(map(sorted, circles)):
+        yield f"{PAGE}: {', '.join(circle)} import one another"
+
+
 def check_page(root):
     """Yields every violation of the page and of its report."""
     may_import = allowed_imports(root)
     yield from check_order(may_import)
     page = root / PAGE
+    imports = {}
     for path in sorted([*(page / "src").rglob("*.ts"), *(page / "report").rglob("*.ts")]):
         name = path.relative_to(page).as_posix()
         if not name.startswith("src/gen/"):
-            yield from check_module(name, path.read_text(encoding="utf-8").splitlines(), may_import)
+            text = path.read_text(encoding="utf-8")
+            yield from check_module(name, text.splitlines(), may_import)
+            imports[name] = {os.path.normpath(Path(name).parent / module) + ".ts" for module in IMPORT.findall(text)}
+    yield from check_circles(imports)

@@ -1,15 +1,7 @@
 // Encoded parts to bitmaps by what a browser has. Runs in the decode worker.
 
+import type { EncodedPart } from './encoded_part';
 import { VideoTrack } from './video_track';
-
-/** A picture that stands alone, or the next frame of video. */
-export interface EncodedPart {
-  /** Of video: decodes without any frame before it. */
-  readonly key: boolean;
-  readonly width: number;
-  readonly height: number;
-  readonly bytes: Uint8Array<ArrayBuffer>;
-}
 
 export interface PartDecoder {
   /** The caller closes the bitmap. Rejects with LostSync where video needs a key frame. */

@@ -1,7 +1,7 @@
 // One viewer's video, by WebCodecs: frames go in as they came and each comes out at once. Runs in
 // the decode worker; knows no messages.
 
-import type { EncodedPart } from './part_decoder';
+import type { EncodedPart } from './encoded_part';
 
 /** The frame cannot be decoded before a key frame has come. */
 export class LostSync extends Error {

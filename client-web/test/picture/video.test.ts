@@ -2,7 +2,7 @@
 
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
-import type { EncodedPart } from '../../src/picture/part_decoder';
+import type { EncodedPart } from '../../src/picture/encoded_part';
 import { VideoFallback } from '../../src/picture/video_fallback';
 import { LostSync, VideoTrack, type Decoder } from '../../src/picture/video_track';
 import { vp9NameOf } from '../../src/picture/vp9';

@@ -20,7 +20,7 @@ class Pipe {
         EXPECT_EQ(pipe2(ends_, O_CLOEXEC), 0);
         EXPECT_EQ(fcntl(ends_[1], F_SETPIPE_SZ, kPipe), kPipe);
         // As every command has it (app/standard_streams.h).
-        std::signal(SIGPIPE, SIG_IGN); // NOLINT(cert-err33-c)
+        std::signal(SIGPIPE, SIG_IGN);
     }
     ~Pipe() {
         close(ends_[0]);

@@ -104,7 +104,7 @@ TEST(EncodePool, FullQueue_RefusesAndLeavesTheJobUntouched) {
     EXPECT_TRUE(pool.submit(job({}, count)));
     EncodeJob refused = job({picture.view(), [&] { ++ended; }}, count);
     EXPECT_FALSE(pool.submit(std::move(refused)));
-    EXPECT_EQ(refused.pixels.view().width_px, 16U); // NOLINT(bugprone-use-after-move)
+    EXPECT_EQ(refused.pixels.view().width_px, 16U);
     EXPECT_TRUE(refused.done);
     EXPECT_EQ(ended, 0);
     held.release();

@@ -55,7 +55,7 @@ std::string anyText(Random& random) {
 
 void fill(Message& message, Random& random, std::set<std::string>& filled);
 
-// NOLINTNEXTLINE(misc-no-recursion): as deep as the schema
+// Recurses as deep as the schema.
 void fillField(Message& message,
                const FieldDescriptor& field,
                Random& random,
@@ -93,7 +93,7 @@ void fillField(Message& message,
     }
 }
 
-// NOLINTNEXTLINE(misc-no-recursion): as deep as the schema
+// Recurses as deep as the schema.
 void fill(Message& message, Random& random, std::set<std::string>& filled) {
     const auto& type = *message.GetDescriptor();
     const int chosen =
@@ -110,7 +110,7 @@ void fill(Message& message, Random& random, std::set<std::string>& filled) {
 }
 
 // Fields below `type`, by their full names.
-// NOLINTNEXTLINE(misc-no-recursion): as deep as the schema
+// Recurses as deep as the schema.
 void fieldsOf(const google::protobuf::Descriptor& type, std::set<std::string>& names) {
     for (int i = 0; i < type.field_count(); ++i) {
         if (names.insert(type.field(i)->full_name()).second &&
