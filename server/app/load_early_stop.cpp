@@ -32,6 +32,7 @@ bool LoadEarlyStop::goesOn(const load::RunSecond& second) {
         viewer.received_bytes += change.received_bytes;
         viewer.failure = change.failure;
         viewer.refused = change.refused;
+        viewer.tried = change.tried;
         viewer.first_frame_ms = change.first_frame_ms;
     }
     const auto outcomes = load::check(requirements_, so_far_);

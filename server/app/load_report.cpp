@@ -237,6 +237,7 @@ Json loadReport(const LoadOptions& options,
         Json figures = {{"failure", orNull(viewer.failure)},
                         {"refused", viewer.refused},
                         {"first_frame_ms", orNull(viewer.first_frame_ms)},
+                        {"first_frame_wait_ms", orNull(viewer.first_frame_wait_ms)},
                         {"stall_ms", load::stallMs(viewer.measured)}};
         figures.update(figuresOf(viewer));
         each.push_back(std::move(figures));

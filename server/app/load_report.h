@@ -25,6 +25,7 @@
 //     failure         one line, or null
 //     refused         whether the failure is that the server had no place for it
 //     first_frame_ms  from connecting to the first frame's last byte; null: there was none
+//     first_frame_wait_ms   how long it waited for one that did not come; null: one came
 //     stall_ms        95 % of the measured time no frame had been due for longer
 //     (load/requirement.h)
 //

@@ -59,7 +59,11 @@ constexpr std::array kViewerFigures = {
     ViewerFigure{
         "stall",
         [](const ViewerResult& viewer) { return whereMeasured(viewer, stallMs(viewer.measured)); }},
-    ViewerFigure{"first_frame", [](const ViewerResult& viewer) { return viewer.first_frame_ms; }},
+    ViewerFigure{"first_frame",
+                 [](const ViewerResult& viewer) {
+                     return viewer.first_frame_ms ? viewer.first_frame_ms
+                                                  : viewer.first_frame_wait_ms;
+                 }},
     ViewerFigure{"jitter", jitterMs},
     ViewerFigure{"dropped", [](const ViewerResult& viewer) {
                      return whereMeasured(viewer, viewer.measured.server_dropped +
@@ -67,12 +71,13 @@ constexpr std::array kViewerFigures = {
                  }}};
 
 double shareOf(const RunResult& result, bool refused) {
-    const auto count = std::count_if(result.viewers.begin(), result.viewers.end(),
-                                     [refused](const ViewerResult& viewer) {
-                                         return viewer.failure && viewer.refused == refused;
-                                     });
-    return static_cast<double>(count) /
-           static_cast<double>(std::max<size_t>(result.viewers.size(), 1));
+    double tried = 0;
+    double failed = 0;
+    for (const ViewerResult& viewer : result.viewers) {
+        tried += viewer.tried ? 1 : 0;
+        failed += viewer.failure && viewer.refused == refused ? 1 : 0;
+    }
+    return failed / std::max(tried, 1.0);
 }
 
 double sumOf(const RunResult& result, uint64_t Counts::*count) {

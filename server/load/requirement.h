@@ -11,7 +11,8 @@
 //   viewer figures, one value for each: fps, mbps, stall, first_frame, jitter, dropped. The
 //       statistic is over the viewers; without one it is the worst viewer's, which the comparison
 //       tells.
-//   run figures: refused and failed, as shares of all viewers; errors and unshown, as numbers.
+//   run figures: refused and failed, as shares of all viewers that tried to connect; errors and
+//   unshown, as numbers.
 //       They have no statistic.
 #pragma once
 

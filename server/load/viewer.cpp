@@ -66,6 +66,7 @@ void Viewer::start(TimePoint run_start) {
 
 void Viewer::connect() {
     connecting_since_ = Clock::now();
+    result_.tried = true;
     deadline_.expires_after(kFirstFrameTimeout);
     deadline_.async_wait(guarded([](Viewer& self) {
         if (!self.result_.first_frame_ms) {
@@ -399,6 +400,10 @@ void Viewer::write() {
 }
 
 void Viewer::endMeasuring(TimePoint now) {
+    if (result_.tried && !result_.first_frame_ms && !result_.first_frame_wait_ms) {
+        result_.first_frame_wait_ms =
+            std::chrono::duration<double, std::milli>(now - connecting_since_).count();
+    }
     if (meter_.counting()) {
         meter_.end(now);
         result_.received_bytes = traffic().receivedBytes() - received_before_;
@@ -460,7 +465,8 @@ void Viewer::finish() {
 ViewerChange Viewer::takeChange(TimePoint now) {
     ViewerChange change;
     change.number = plan_.number;
-    change.joining = connecting_since_ != TimePoint() && !ended_ && !result_.first_frame_ms;
+    change.tried = result_.tried;
+    change.joining = result_.tried && !ended_ && !result_.first_frame_ms;
     change.watching = result_.first_frame_ms.has_value() && !closing_ && !ended_;
     change.failure = result_.failure;
     change.refused = result_.refused;

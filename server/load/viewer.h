@@ -43,8 +43,10 @@ struct ViewerResult {
     bool controlled = true;             // false: watched in a room, and said nothing of the script
     std::optional<std::string> failure; // one line; none: all went well
     bool refused = false;               // the failure: the server had no place for this one
-    std::optional<double> first_frame_ms; // from connecting; with --size and --lights applied
-    uint64_t received_bytes = 0;          // of the connection while measuring, all framing included
+    bool tried = false;                 // to connect; the run may end before
+    std::optional<double> first_frame_ms;      // from connecting; with --size and --lights applied
+    std::optional<double> first_frame_wait_ms; // it left or ended before that came, after so long
+    uint64_t received_bytes = 0; // of the connection while measuring, all framing included
     uint64_t sent_bytes = 0;
     uint64_t key_frames = 0; // of video, since connecting
 };
@@ -52,6 +54,7 @@ struct ViewerResult {
 // One viewer since the last look at it.
 struct ViewerChange {
     uint32_t number = 0;
+    bool tried = false;    // to connect
     bool joining = false;  // has no first frame yet
     bool watching = false; // has one, and has not ended
     std::optional<std::string> failure;

@@ -19,6 +19,7 @@ namespace {
 // Latencies of `base_ms` to `base_ms` + 99, 50 frames a second for 2 s.
 load::ViewerResult viewer(double base_ms) {
     load::ViewerResult result;
+    result.tried = true;
     result.first_frame_ms = 120;
     result.received_bytes = 1'000'000;
     load::Measured& measured = result.measured;
@@ -33,6 +34,7 @@ load::ViewerResult viewer(double base_ms) {
 
 load::ViewerResult failed(const std::string& why) {
     load::ViewerResult result;
+    result.tried = true;
     result.failure = why;
     return result;
 }

@@ -11,6 +11,7 @@ namespace {
 // Latencies of `base_ms` to `base_ms` + 99, 50 frames a second for 2 s.
 ViewerResult viewer(double base_ms) {
     ViewerResult result;
+    result.tried = true;
     result.first_frame_ms = base_ms + 120;
     result.received_bytes = 1'000'000;
     Measured& measured = result.measured;
@@ -26,6 +27,7 @@ ViewerResult viewer(double base_ms) {
 
 ViewerResult failed(bool refused) {
     ViewerResult result;
+    result.tried = true;
     result.failure = "why";
     result.refused = refused;
     return result;
@@ -57,6 +59,9 @@ TEST(Requirement, ViewerFigure_IsTheWorstViewers_AsTheComparisonTells) {
     EXPECT_EQ(outcome("mbps<5", {viewer(0)}).measured, 4);
     EXPECT_EQ(outcome("jitter<5", {viewer(0)}).measured, 30);
     EXPECT_EQ(outcome("first_frame<5", {viewer(0), viewer(7)}).measured, 127);
+    auto waiting = failed(false);
+    waiting.first_frame_wait_ms = 500;
+    EXPECT_EQ(outcome("first_frame<5", {viewer(0), waiting}).measured, 500) << "none came so far";
 }
 
 TEST(Requirement, RunFigures_CountViewersAndErrors) {
@@ -65,6 +70,8 @@ TEST(Requirement, RunFigures_CountViewersAndErrors) {
     EXPECT_TRUE(outcome("refused<=50%", viewers).held);
     EXPECT_FALSE(outcome("refused<50%", viewers).held);
     EXPECT_EQ(outcome("failed<=0.1", viewers).measured, 0.25);
+    EXPECT_EQ(outcome("refused<=1", {failed(true), ViewerResult{}}).measured, 1)
+        << "one never came to try";
     EXPECT_EQ(outcome("errors<=0", viewers).measured, 2);
 }
 
