@@ -4,6 +4,8 @@
 #include "net/health.h"
 #include "session/room.h"
 
+#include <algorithm>
+
 namespace froxel::net {
 
 namespace http = boost::beast::http;
@@ -19,34 +21,65 @@ Response verdict(const Result<void>& well) {
 
 } // namespace
 
+const std::array<AdminSite::Route, 6> AdminSite::kRoutes = {{
+    {[](std::string_view path) { return path == kMetricsPath; }, Method::kRead,
+     &AdminSite::metricsText},
+    {[](std::string_view path) { return path == kLivePath; }, Method::kRead, &AdminSite::live},
+    {[](std::string_view path) { return path == kReadyPath; }, Method::kRead, &AdminSite::ready},
+    {[](std::string_view path) { return path == kStartedPath; }, Method::kRead,
+     &AdminSite::started},
+    {[](std::string_view path) { return path == kDrainPath; }, Method::kPost, &AdminSite::drain},
+    {[](std::string_view path) { return roomIn(path).has_value(); }, Method::kPost,
+     &AdminSite::takeControl},
+}};
+
+const AdminSite::Route* AdminSite::routeOf(std::string_view path) {
+    const auto* const route =
+        std::ranges::find_if(kRoutes, [path](const Route& one) { return one.has(path); });
+    return route == kRoutes.end() ? nullptr : route;
+}
+
+bool AdminSite::takesPost(std::string_view path) const {
+    const Route* const route = routeOf(path);
+    return route != nullptr && route->method == Method::kPost;
+}
+
 Response AdminSite::answer(const Request& request,
                            std::string_view path,
                            const boost::asio::ip::address& /*peer*/) const {
-    if (path == kMetricsPath) {
-        return makeResponse(http::status::ok, Metrics::kContentType, metrics_->text());
+    const Route* const route = routeOf(path);
+    if (route == nullptr) {
+        return textResponse(http::status::not_found,
+                            "not found; available are /metrics, /livez, /readyz, /startupz, "
+                            "/drain and /rooms/NAME/take-control");
     }
-    if (path == kLivePath) {
-        return verdict(isLive(service_->status(), hooks_.network_moves, Clock::now()));
-    }
-    if (path == kReadyPath) {
-        return verdict(isReady(service_->status(), Clock::now()));
-    }
-    if (path == kStartedPath) {
-        return verdict(hasStarted(service_->status()));
-    }
-    if (takesPost(path)) {
+    if (route->method == Method::kPost) {
         if (auto refused = refusePost(request)) {
             return std::move(*refused);
         }
-        if (const auto room = roomIn(path)) {
-            return takeControl(*room);
-        }
-        hooks_.drain();
-        return textResponse(http::status::accepted, "draining");
     }
-    return textResponse(http::status::not_found,
-                        "not found; available are /metrics, /livez, /readyz, /startupz, /drain and "
-                        "/rooms/NAME/take-control");
+    return (this->*route->answer)(path);
+}
+
+Response AdminSite::metricsText(std::string_view /*path*/) const {
+    return makeResponse(http::status::ok, Metrics::kContentType, metrics_->text());
+}
+
+Response AdminSite::live(std::string_view /*path*/) const {
+    return verdict(isLive(service_->status(), hooks_.network_moves, Clock::now()));
+}
+
+Response AdminSite::ready(std::string_view /*path*/) const {
+    return verdict(isReady(service_->status(), Clock::now()));
+}
+
+Response AdminSite::started(std::string_view /*path*/) const {
+    return verdict(hasStarted(service_->status()));
+}
+
+Response AdminSite::drain(std::string_view /*path*/) const {
+    hooks_.drain();
+    return textResponse(http::status::accepted, "draining");
 }
 
 std::optional<std::string> AdminSite::roomIn(std::string_view path) {
@@ -59,7 +92,8 @@ std::optional<std::string> AdminSite::roomIn(std::string_view path) {
     return session::isRoomName(path) ? std::optional(std::string(path)) : std::nullopt;
 }
 
-Response AdminSite::takeControl(const std::string& room) const {
+Response AdminSite::takeControl(std::string_view path) const {
+    const std::string room = roomIn(path).value();
     return hooks_.take_control(room)
                ? textResponse(http::status::ok, "control of room " + room + " was taken")
                : textResponse(http::status::not_found, "nobody is in room " + room);

@@ -6,6 +6,8 @@
 #include "net/metrics.h"
 #include "net/token_gate.h"
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -43,9 +45,7 @@ class AdminSite final : public HttpSite {
     [[nodiscard]] Response answer(const Request& request,
                                   std::string_view path,
                                   const boost::asio::ip::address& peer) const override;
-    [[nodiscard]] bool takesPost(std::string_view path) const override {
-        return path == kDrainPath || roomIn(path);
-    }
+    [[nodiscard]] bool takesPost(std::string_view path) const override;
     [[nodiscard]] std::optional<Response>
     refuseUpgrade(const Request& request, const boost::asio::ip::address& peer) const override;
     void upgrade(PeerStream stream, Request request, ConnectionTicket ticket) const override;
@@ -54,11 +54,26 @@ class AdminSite final : public HttpSite {
     [[nodiscard]] Service* drainsWith() const override { return nullptr; }
 
   private:
+    enum class Method : uint8_t { kRead, kPost }; // GET and HEAD; POST alone, past refusePost()
+    struct Route {
+        bool (*has)(std::string_view path);
+        Method method;
+        Response (AdminSite::*answer)(std::string_view path) const;
+    };
+    static const std::array<Route, 6> kRoutes;
+    [[nodiscard]] static const Route* routeOf(std::string_view path);
+
+    [[nodiscard]] Response metricsText(std::string_view path) const;
+    [[nodiscard]] Response live(std::string_view path) const;
+    [[nodiscard]] Response ready(std::string_view path) const;
+    [[nodiscard]] Response started(std::string_view path) const;
+    [[nodiscard]] Response drain(std::string_view path) const;
+    [[nodiscard]] Response takeControl(std::string_view path) const;
+
     // Of "/rooms/NAME/take-control".
     [[nodiscard]] static std::optional<std::string> roomIn(std::string_view path);
     // None: whoever asks may POST.
     [[nodiscard]] std::optional<Response> refusePost(const Request& request) const;
-    [[nodiscard]] Response takeControl(const std::string& room) const;
 
     const std::shared_ptr<const Metrics> metrics_;
     const std::shared_ptr<const Service> service_;

@@ -1,5 +1,6 @@
 #include "net/public_site.h"
 
+#include "core/assert.h"
 #include "core/text.h"
 #include "net/link_preview.h"
 #include "net/origin.h"
@@ -12,6 +13,8 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace froxel::net {
@@ -21,15 +24,6 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 
 namespace {
-
-Response health(const ServiceStatus& status) {
-    if (status.draining) {
-        return makeResponse(http::status::service_unavailable, "application/json",
-                            R"({"status":"draining"})");
-    }
-    return makeResponse(http::status::ok, "application/json",
-                        status.serving ? R"({"status":"serving"})" : R"({"status":"loading"})");
-}
 
 Response noToken() {
     return unauthorized("Authorization must be Bearer and a token of this server");
@@ -203,46 +197,136 @@ whyNoUpgrade(const Request& request, const asio::ip::address& peer, const Site& 
     return whyNoPlace(request, peer, site);
 }
 
+// Who may ask for a route.
+enum class Gate : uint8_t {
+    kAll,
+    kOwn,   // no page of another site, and nobody without a token where one is asked for
+    kShown, // likewise; but pages of any site may where Site::shows_elsewhere
+};
+
+struct Asked {
+    const Request& request;
+    std::string_view path;
+    const asio::ip::address& peer;
+    const std::shared_ptr<const Site>& site;
+    Caller caller; // who has passed the gate; of kAll nobody
+};
+using Done = std::function<void(LateAnswer)>;
+
+// Of two handlers a route has one.
+struct Route {
+    bool (*has)(std::string_view path);
+    Gate gate;
+    Response (*now)(const Asked& asked);
+    HttpSite::CallOff (*later)(const Asked& asked, const Done& done);
+};
+
+Response health(const Asked& asked) {
+    const ServiceStatus status = asked.site->service->status();
+    if (status.draining) {
+        return makeResponse(http::status::service_unavailable, "application/json",
+                            R"({"status":"draining"})");
+    }
+    return makeResponse(http::status::ok, "application/json",
+                        status.serving ? R"({"status":"serving"})" : R"({"status":"loading"})");
+}
+
+// The page's tooltips.
+Response settingWords(const Asked& /*asked*/) {
+    Response response = makeResponse(http::status::ok, "application/json", session::settingWords());
+    response.set(http::field::cache_control, "no-cache");
+    return response;
+}
+
+Response sceneListing(const Asked& asked) {
+    Response response = asked.site->scenes->answer(asked.request, asked.path);
+    letOthersRead(asked.request, *asked.site, response);
+    return response;
+}
+
+Response noMetrics(const Asked& /*asked*/) {
+    return textResponse(http::status::not_found,
+                        "metrics are at the admin address (froxel serve --admin-bind)");
+}
+
+Response socketAlone(const Asked& /*asked*/) {
+    Response response = textResponse(http::status::upgrade_required,
+                                     "this path supports only WebSocket (version 13)");
+    response.set(http::field::upgrade, "websocket");
+    return response;
+}
+
+Response pageFile(const Asked& asked) {
+    if (const StaticFile* found = asked.site->files.find(asked.path)) {
+        return file(asked.request, *found, asked.site->content_policy);
+    }
+    return textResponse(http::status::not_found,
+                        asked.path == "/" ? "the page is not built; run ./deploy/build.sh"
+                                          : "not found");
+}
+
+HttpSite::CallOff preview(const Asked& asked, const Done& done) {
+    Response page = linkPreview(asked.request, cameSecurely(asked.request, asked.peer, *asked.site),
+                                asked.site->gate == nullptr);
+    letOthersShow(asked.request, *asked.site, page);
+    done({std::move(page)});
+    return [] {};
+}
+
+HttpSite::CallOff still(const Asked& asked, const Done& done) {
+    return asked.site->stills->answer(
+        asked.request, asked.path, asked.caller, asked.site->gate == nullptr,
+        [site = asked.site, request = asked.request, done](LateAnswer answer) {
+            letOthersShow(request, *site, answer.response);
+            done(std::move(answer));
+        });
+}
+
+// The first that has a path answers it. All are read, by GET and HEAD, and take no body.
+constexpr std::array kRoutes = {
+    Route{[](std::string_view path) { return path == "/healthz"; }, Gate::kAll, health, nullptr},
+    Route{[](std::string_view path) { return path == "/settings.json"; }, Gate::kAll, settingWords,
+          nullptr},
+    Route{StillAnswers::has, Gate::kShown, nullptr,
+          still}, // thumbnails are below the listing's path
+    Route{SceneListing::has, Gate::kOwn, sceneListing, nullptr},
+    Route{[](std::string_view path) { return path == kLinkPath; }, Gate::kAll, nullptr, preview},
+    Route{[](std::string_view path) { return path == "/metrics"; }, Gate::kAll, noMetrics, nullptr},
+    Route{isSocketPath, Gate::kAll, socketAlone, nullptr},
+    Route{[](std::string_view) { return true; }, Gate::kAll, pageFile, nullptr}};
+
+const Route& routeOf(std::string_view path) {
+    return *std::ranges::find_if(kRoutes, [path](const Route& route) { return route.has(path); });
+}
+
+// None: it may pass, and `asked` says who it is.
+std::optional<Response> refuseAt(Gate gate, Asked& asked) {
+    if (gate == Gate::kAll) {
+        return {};
+    }
+    if (gate == Gate::kOwn || !asked.site->shows_elsewhere) {
+        if (auto refused = refuseForeign(asked.request, *asked.site)) {
+            return refused;
+        }
+    }
+    auto caller = admitted(asked.request, asked.peer, *asked.site);
+    if (!caller) {
+        return noToken();
+    }
+    asked.caller = std::move(*caller);
+    return {};
+}
+
 } // namespace
 
 Response PublicSite::answer(const Request& request,
                             std::string_view path,
                             const asio::ip::address& peer) const {
-    if (path == "/healthz") {
-        return health(site_->service->status());
-    }
-    if (path == "/settings.json") { // the page's tooltips
-        Response response =
-            makeResponse(http::status::ok, "application/json", session::settingWords());
-        response.set(http::field::cache_control, "no-cache");
-        return response;
-    }
-    if (SceneListing::has(path)) {
-        if (auto refused = refuseForeign(request, *site_)) {
-            return std::move(*refused);
-        }
-        if (!admitted(request, peer, *site_)) {
-            return noToken();
-        }
-        Response response = site_->scenes->answer(request, path);
-        letOthersRead(request, *site_, response);
-        return response;
-    }
-    if (path == "/metrics") {
-        return textResponse(http::status::not_found,
-                            "metrics are at the admin address (froxel serve --admin-bind)");
-    }
-    if (isSocketPath(path)) {
-        Response response = textResponse(http::status::upgrade_required,
-                                         "this path supports only WebSocket (version 13)");
-        response.set(http::field::upgrade, "websocket");
-        return response;
-    }
-    if (const StaticFile* found = site_->files.find(path)) {
-        return file(request, *found, site_->content_policy);
-    }
-    return textResponse(http::status::not_found,
-                        path == "/" ? "the page is not built; run ./deploy/build.sh" : "not found");
+    const Route& route = routeOf(path);
+    FROXEL_ASSERT(route.now != nullptr, "answerLater() has it");
+    Asked asked{request, path, peer, site_, {}};
+    auto refused = refuseAt(route.gate, asked);
+    return refused ? std::move(*refused) : route.now(asked);
 }
 
 std::optional<HttpSite::CallOff>
@@ -250,32 +334,16 @@ PublicSite::answerLater(const Request& request,
                         std::string_view path,
                         const asio::ip::address& peer,
                         std::function<void(LateAnswer)> done) const {
-    if (path == kLinkPath) {
-        Response preview =
-            linkPreview(request, cameSecurely(request, peer, *site_), site_->gate == nullptr);
-        letOthersShow(request, *site_, preview);
-        done({std::move(preview)});
-        return [] {};
-    }
-    if (!StillAnswers::has(path)) {
+    const Route& route = routeOf(path);
+    if (route.later == nullptr) {
         return {};
     }
-    if (!site_->shows_elsewhere) {
-        if (auto refused = refuseForeign(request, *site_)) {
-            done({std::move(*refused)});
-            return [] {};
-        }
-    }
-    const auto caller = admitted(request, peer, *site_);
-    if (!caller) {
-        done({noToken()});
+    Asked asked{request, path, peer, site_, {}};
+    if (auto refused = refuseAt(route.gate, asked)) {
+        done({std::move(*refused)});
         return [] {};
     }
-    return site_->stills->answer(request, path, *caller, site_->gate == nullptr,
-                                 [site = site_, request, done](LateAnswer answer) {
-                                     letOthersShow(request, *site, answer.response);
-                                     done(std::move(answer));
-                                 });
+    return route.later(asked, done);
 }
 
 std::optional<Response> PublicSite::refuseUpgrade(const Request& request,

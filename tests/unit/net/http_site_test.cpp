@@ -125,12 +125,16 @@ TEST_F(PublicSiteTest, PagesOfOtherSites_HaveNothingDrawn) {
     still.set("Sec-Fetch-Site", "cross-site");
     still.set("Sec-Fetch-Mode", "no-cors");
     still.set("Sec-Fetch-Dest", "image");
-    std::optional<LateAnswer> answer;
-    const auto call_off = site->answerLater(still, "/render", boost::asio::ip::address(),
-                                            [&](LateAnswer came) { answer = std::move(came); });
-    EXPECT_TRUE(call_off);
-    ASSERT_TRUE(answer);
-    EXPECT_EQ(answer->response.result(), http::status::forbidden);
+    // Thumbnails are below the path of the scenes' list, and are drawn.
+    const std::string thumbnail = "/api/v1/scenes/x" + std::string(kThumbnail);
+    for (const std::string& path : {std::string("/render"), thumbnail}) {
+        std::optional<LateAnswer> answer;
+        const auto call_off = site->answerLater(still, path, boost::asio::ip::address(),
+                                                [&](LateAnswer came) { answer = std::move(came); });
+        EXPECT_TRUE(call_off) << path;
+        ASSERT_TRUE(answer) << path;
+        EXPECT_EQ(answer->response.result(), http::status::forbidden);
+    }
     EXPECT_EQ(site->answer(still, "/api/v1/scenes", {}).result(), http::status::forbidden);
 }
 
