@@ -27,7 +27,7 @@ def common(expression):
     return subprocess.run(["bash", "-c", script], check=True, capture_output=True, text=True).stdout.split()
 
 
-def sources_of(names):
+def sources_of(names, may_lack):
     """{source package: one of its installed packages} of the packages by these names, which others may provide."""
     listed = subprocess.run(["dpkg-query", "--show", "--showformat", "${source:Package} ${Package}, ${Provides}\n"],
                             check=True, capture_output=True, text=True).stdout
@@ -37,7 +37,7 @@ def sources_of(names):
         if not names.isdisjoint(provided):
             found[source] = provided[0]
             missing -= set(provided)
-    if missing:
+    if missing and not may_lack:
         sys.exit(f"notices.py: {', '.join(sorted(missing))} not installed; run deploy/build.sh first")
     return found
 
@@ -59,8 +59,8 @@ def page_packages():
             yield name, IN_BINARY.get(name) or entry.get("license", "see the text"), PAGE / place
 
 
-def debian_rows(names, use):
-    for source, package in sorted(sources_of(set(names)).items()):
+def debian_rows(names, use, may_lack=False):
+    for source, package in sorted(sources_of(set(names), may_lack).items()):
         path = Path("/usr/share/doc") / package / "copyright"
         if not path.is_file():
             sys.exit(f"notices.py: {path} is missing; reinstall {package}")
@@ -68,13 +68,16 @@ def debian_rows(names, use):
         yield source, licence_of(text), use, text
 
 
-def rows(binary):
-    """(name, licence, use, text) of each package; Debian's by their sources, whose names hardly change."""
+def rows(binary, in_image):
+    """(name, licence, use, text) of each package; Debian's by their sources, whose names hardly change.
+
+    What is loaded at run time is not there where an image is built; it brings its own texts into the image.
+    """
     built = [name for name in common('names_here "${build_packages[@]}"') if name not in TOOLS]
     yield from debian_rows(built + common(f'linked_packages "{binary}"'), "binary")
     lines = (ROOT / "deploy/runtime_packages.txt").read_text(encoding="utf-8").splitlines()
     loaded = {line.split("#")[0].strip() for line in lines}
-    yield from debian_rows(loaded - {"", "ca-certificates"}, "loaded at run time")
+    yield from debian_rows(loaded - {"", "ca-certificates"}, "loaded at run time", may_lack=in_image)
     for name, licence, folder in page_packages():
         texts = sorted(path for path in folder.glob("*") if re.match(r"(?i)(licen[cs]e|copying)", path.name))
         text = "\n".join(path.read_text(encoding="utf-8", errors="replace") for path in texts)
@@ -84,10 +87,11 @@ def rows(binary):
 def main():
     if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--texts"]):
         sys.exit("usage: notices.py BINARY [--texts]")
-    found = list(rows(Path(sys.argv[1]).resolve()))
+    found = list(rows(Path(sys.argv[1]).resolve(), in_image=bool(sys.argv[2:])))
     print("# Third-party software\n")
-    print("Froxel is built from these packages of Debian and npm. `deploy/notices.py` generates the list. The image")
-    print("has it with the texts of the licences, in `/usr/local/share/doc/froxel/THIRD_PARTY.md`.\n")
+    print("Froxel is built from these packages of Debian and npm. `deploy/notices.py` generates the list. The image has it")
+    print("with the texts of the licences, in `/usr/local/share/doc/froxel/THIRD_PARTY.md`. The texts of what is loaded at run")
+    print("time are in `/usr/share/doc`.\n")
     print("| package | licence | use |\n|---|---|---|")
     for name, licence, use, _ in found:
         print(f"| `{name}` | {licence} | {use} |")
