@@ -21,6 +21,14 @@ TOOLS = {"build-essential", "cmake", "ninja-build", "pkg-config", "glslang-tools
 IN_BINARY = {"three": "Apache-2.0 (its copy of Basis Universal's transcoder)"}
 
 
+HEAD = """# Third-party software
+
+Froxel is built from these packages of Debian and npm. `deploy/notices.py` generates the list. The image has it with the
+texts of the licences, in `/usr/local/share/doc/froxel/THIRD_PARTY.md`. The texts of what is loaded at run time are in
+`/usr/share/doc`.
+"""
+
+
 def common(expression):
     """Lines that a shell prints with common.sh."""
     script = f'source "{ROOT}/deploy/common.sh"; {expression}'
@@ -88,10 +96,7 @@ def main():
     if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--texts"]):
         sys.exit("usage: notices.py BINARY [--texts]")
     found = list(rows(Path(sys.argv[1]).resolve(), in_image=bool(sys.argv[2:])))
-    print("# Third-party software\n")
-    print("Froxel is built from these packages of Debian and npm. `deploy/notices.py` generates the list. The image has it")
-    print("with the texts of the licences, in `/usr/local/share/doc/froxel/THIRD_PARTY.md`. The texts of what is loaded at run")
-    print("time are in `/usr/share/doc`.\n")
+    print(HEAD)
     print("| package | licence | use |\n|---|---|---|")
     for name, licence, use, _ in found:
         print(f"| `{name}` | {licence} | {use} |")
