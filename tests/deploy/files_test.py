@@ -259,7 +259,8 @@ class Files(unittest.TestCase):
 
     def test_manifests_are_of_the_types_of_the_api(self):
         self.require_types()
-        documents = [document for name in ("cpu", "nvidia", "example") for document in self.manifests(f"overlays/{name}")]
+        documents = [document for name in ("cpu", "nvidia", "example")
+                     for document in self.manifests(f"overlays/{name}")]
         documents += self.composed("scenes-volume")
         for block in re.findall("```yaml\n(.*?)```", (DEPLOY / "README.md").read_text(), re.S):
             documents += [entry for entry in [yaml.safe_load(block)] if "apiVersion" in entry]
