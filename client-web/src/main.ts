@@ -414,6 +414,8 @@ async function toggleFullscreen(): Promise<void> {
 }
 
 const input = new CanvasInput(canvas, commands, nextFrame);
+// Whoever is quicker than the fetch is heard, too.
+canvas.addEventListener('dblclick', (event) => void handles.want().then((made) => made?.pickAt(event)));
 // Captured, since the panel keeps the keys of its controls to itself, one that goes up there too.
 const captured = { capture: true };
 function keyDown(event: Event): void {

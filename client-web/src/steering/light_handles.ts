@@ -60,10 +60,12 @@ export class LightHandles {
     private readonly actions: HandleActions,
   ) {
     new ResizeObserver(() => this.place()).observe(canvas);
-    canvas.addEventListener('dblclick', (event) => {
-      const at = this.pointerAt(event);
-      if (this.picture && Math.abs(at.x) <= 1 && Math.abs(at.y) <= 1) this.actions.pickLight(at);
-    });
+  }
+
+  /** Of a double click in the picture. */
+  pickAt(event: MouseEvent): void {
+    const at = this.pointerAt(event);
+    if (this.picture && Math.abs(at.x) <= 1 && Math.abs(at.y) <= 1) this.actions.pickLight(at);
   }
 
   /** Who only watches a room has none. */
