@@ -115,17 +115,24 @@ uint32_t threadsFor(uint32_t viewer_count) {
     return std::clamp(viewer_count / kViewersPerThread, 1U, cores);
 }
 
-// Of `viewer_count` viewers, unless there are stages.
-load::RunOptions runOptions(const LoadOptions& options, uint32_t viewer_count) {
+void setViewers(load::RunOptions& run, const LoadOptions& options, uint32_t viewer_count) {
+    run.visits = load::visitsOver(Seconds(options.ramp_s), viewer_count);
+    run.thread_count = threadsFor(viewer_count);
+}
+
+load::RunOptions runOptions(const LoadOptions& options) {
     load::RunOptions run;
     run.viewer = viewerOptions(options);
     run.scripts = scriptsOf(options);
-    const bool staged = !options.stages.empty();
-    run.measures_together = !staged;
-    run.visits = staged ? load::visitsOf(options.stages)
-                        : load::visitsOver(Seconds(options.ramp_s), viewer_count);
-    run.seconds = staged ? load::lengthOf(options.stages) : Seconds(options.seconds);
-    run.thread_count = threadsFor(staged ? load::mostViewersOf(options.stages) : viewer_count);
+    if (options.stages.empty()) {
+        run.seconds = Seconds(options.seconds);
+        setViewers(run, options, options.viewer_count.value_or(1));
+    } else {
+        run.measures_together = false;
+        run.seconds = load::lengthOf(options.stages);
+        run.visits = load::visitsOf(options.stages);
+        run.thread_count = threadsFor(load::mostViewersOf(options.stages));
+    }
     return run;
 }
 
@@ -262,7 +269,7 @@ int runPlain(const LoadOptions& options) {
     const auto requirements = requirementsOf(options.requirements);
     const std::string page =
         options.report.empty() ? "" : readReportPage(options.web_root, "load.html");
-    const load::RunOptions run = runOptions(options, options.viewer_count.value_or(1));
+    const load::RunOptions run = runOptions(options);
     const Watched watched = watchRun(options, run, requirements);
     const LoadVerdict verdict = loadVerdict(requirements, watched.result);
     const auto report = loadReport(options, run, watched.result, verdict, watched.series);
@@ -284,6 +291,10 @@ int runPlain(const LoadOptions& options) {
         fmt::print(stderr, "froxel: {}\n", *broken);
         return kExitRequirement;
     }
+    if (watched.result.ended_early) { // what was broken so long has been mended since
+        fmt::print(stderr, "froxel: a requirement was broken for {:g} s\n", *options.stop_early_s);
+        return kExitRequirement;
+    }
     return watched.result.stopped ? kStoppedExitCode : EXIT_SUCCESS;
 }
 
@@ -297,13 +308,14 @@ bool nobodyFailed(const load::RunSecond& second) {
 int runFind(const LoadOptions& options) {
     const auto requirements = requirementsOf(options.find_requirements);
     load::CapacitySearch search(options.viewer_count.value_or(kMostTried), options.trial_count);
+    load::RunOptions run = runOptions(options);
     std::vector<LoadTrial> trials;
     bool stopped = false;
     {
         const SignalledStop stop;
         const ProgressLine line;
         while (const auto viewers = stopped ? std::nullopt : search.next()) {
-            const load::RunOptions run = runOptions(options, *viewers);
+            setViewers(run, options, *viewers);
             auto result = load::runLoad(run, stop.token(), [&](const load::RunSecond& second) {
                 line.show(fmt::format("trial {} with {} viewers: {}", trials.size() + 1, *viewers,
                                       loadProgress(run, second)));
@@ -319,7 +331,6 @@ int runFind(const LoadOptions& options) {
             }
         }
     }
-    const load::RunOptions run = runOptions(options, 1);
     print(options, capacityText(search, trials, stopped),
           capacityReport(options, run, search, trials, stopped));
     if (stopped) {
