@@ -184,77 +184,78 @@ bool LiveSession::removeMember(MemberId member, Mail& mail) {
 
 CommandResult<void>
 LiveSession::apply(const Place& place, const session::CommandMessage& message, TimePoint now) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    Member* member = find(place);
-    if (member == nullptr) {
-        return {}; // a newer connection was sent word to close this one
-    }
-    if (auto allowed = room_.mayControl(place.member); !allowed) {
-        Rejection rejection = allowed.error();
-        rejection.ref_seq = message.stamp.seq;
-        return rejection;
-    }
-    session::CommandMessage signed_message = message;
-    signed_message.stamp.author = place.connection;
-    auto next = session::apply(state_, signed_message, *state_.scene, now);
-    if (!next) {
-        return next.error();
-    }
-    state_ = *next;
-    member->watched_at = control_used_ = now;
-    used_by_ = place.member;
-    serving_.port->update(id_, state_, now);
-    tellState(mail, place.member);
-    return {};
+    return underLock(mutex_, [&](Mail& mail) -> CommandResult<void> {
+        Member* member = find(place);
+        if (member == nullptr) {
+            return {}; // a newer connection was sent word to close this one
+        }
+        if (auto allowed = room_.mayControl(place.member); !allowed) {
+            Rejection rejection = allowed.error();
+            rejection.ref_seq = message.stamp.seq;
+            return rejection;
+        }
+        session::CommandMessage signed_message = message;
+        signed_message.stamp.author = place.connection;
+        auto next = session::apply(state_, signed_message, *state_.scene, now);
+        if (!next) {
+            return next.error();
+        }
+        state_ = *next;
+        member->watched_at = control_used_ = now;
+        used_by_ = place.member;
+        serving_.port->update(id_, state_, now);
+        tellState(mail, place.member);
+        return {};
+    });
 }
 
 CommandResult<void> LiveSession::selectScene(const Place& place,
                                              const session::CommandMessage& message,
                                              TimePoint now) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    Member* member = find(place);
-    if (member == nullptr) {
-        return {};
-    }
-    const auto refuse = [&message](Rejection rejection) {
-        rejection.ref_seq = message.stamp.seq;
-        return rejection;
-    };
-    if (auto allowed = room_.mayControl(place.member); !allowed) {
-        return refuse(allowed.error());
-    }
-    member->watched_at = control_used_ = now;
-    used_by_ = place.member;
-    const std::string& id = std::get<session::SelectScene>(message.body).id;
-    if (awaited_ && awaited_->id == id) {
-        return {};
-    }
-    session::CommandStamp stamp = message.stamp;
-    stamp.author = place.connection;
-    if (id == state_.scene->scene_id) {
+    return underLock(mutex_, [&](Mail& mail) -> CommandResult<void> {
+        Member* member = find(place);
+        if (member == nullptr) {
+            return {};
+        }
+        const auto refuse = [&message](Rejection rejection) {
+            rejection.ref_seq = message.stamp.seq;
+            return rejection;
+        };
+        if (auto allowed = room_.mayControl(place.member); !allowed) {
+            return refuse(allowed.error());
+        }
+        member->watched_at = control_used_ = now;
+        used_by_ = place.member;
+        const std::string& id = std::get<session::SelectScene>(message.body).id;
+        if (awaited_ && awaited_->id == id) {
+            return {};
+        }
+        session::CommandStamp stamp = message.stamp;
+        stamp.author = place.connection;
+        if (id == state_.scene->scene_id) {
+            callOff();
+            tellScene(mail);
+            return {};
+        }
+        if (serving_.scenes == nullptr) {
+            return refuse({RejectCode::kUnsupported, 0, "scene", "this server has one scene"});
+        }
+        auto scene = serving_.scenes->want(id, shared_from_this());
+        if (!scene) {
+            Rejection refused{RejectCode::kOutOfRange, 0, "scene",
+                              "scene " + scene.error().message};
+            refused.blameless = true; // the list that it was chosen from may be old
+            return refuse(std::move(refused));
+        }
         callOff();
-        tellScene(mail);
+        if (*scene) {
+            show(*scene, stamp, now, mail);
+        } else {
+            awaited_ = Awaited{id, stamp, {"waiting for its turn", 0}};
+            tellScene(mail);
+        }
         return {};
-    }
-    if (serving_.scenes == nullptr) {
-        return refuse({RejectCode::kUnsupported, 0, "scene", "this server has one scene"});
-    }
-    auto scene = serving_.scenes->want(id, shared_from_this());
-    if (!scene) {
-        Rejection refused{RejectCode::kOutOfRange, 0, "scene", "scene " + scene.error().message};
-        refused.blameless = true; // the list that it was chosen from may be old
-        return refuse(std::move(refused));
-    }
-    callOff();
-    if (*scene) {
-        show(*scene, stamp, now, mail);
-    } else {
-        awaited_ = Awaited{id, stamp, {"waiting for its turn", 0}};
-        tellScene(mail);
-    }
-    return {};
+    });
 }
 
 void LiveSession::callOff() {
@@ -280,27 +281,27 @@ void LiveSession::show(const session::SharedContext& scene,
 }
 
 void LiveSession::onSceneProgress(const std::string& id, const Progress& progress) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    if (awaited_ && awaited_->id == id) {
-        awaited_->progress = progress;
-        tellScene(mail);
-    }
+    underLock(mutex_, [&](Mail& mail) {
+        if (awaited_ && awaited_->id == id) {
+            awaited_->progress = progress;
+            tellScene(mail);
+        }
+    });
 }
 
 void LiveSession::onScene(const std::string& id, Result<session::SharedContext> scene) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    if (!awaited_ || awaited_->id != id) {
-        return;
-    }
-    const session::CommandStamp stamp = std::exchange(awaited_, std::nullopt)->stamp;
-    if (scene) {
-        show(*scene, stamp, Clock::now(), mail);
-        return;
-    }
-    tellRefusal(scene.error(), stamp, false, mail, "scene");
-    tellScene(mail);
+    underLock(mutex_, [&](Mail& mail) {
+        if (!awaited_ || awaited_->id != id) {
+            return;
+        }
+        const session::CommandStamp stamp = std::exchange(awaited_, std::nullopt)->stamp;
+        if (scene) {
+            show(*scene, stamp, Clock::now(), mail);
+            return;
+        }
+        tellRefusal(scene.error(), stamp, false, mail, "scene");
+        tellScene(mail);
+    });
 }
 
 std::vector<v1::ServerMessage> LiveSession::newsOfScene(const Place& place,
@@ -331,29 +332,29 @@ std::vector<v1::ServerMessage> LiveSession::newsOfScene(const Place& place,
 
 CommandResult<void> LiveSession::changeControl(const Place& place,
                                                const session::Command& command) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    if (find(place) == nullptr) {
-        return {};
-    }
-    if (!room_.shared()) {
-        return Rejection{RejectCode::kUnsupported, 0, "",
-                         "this session is not in a room; you control it"};
-    }
-    const uint64_t before = room_.version();
-    if (const auto* give = std::get_if<session::GiveControl>(&command)) {
-        if (auto given = room_.giveControl(place.member, give->member_id); !given) {
-            return given;
+    return underLock(mutex_, [&](Mail& mail) -> CommandResult<void> {
+        if (find(place) == nullptr) {
+            return {};
         }
-    } else if (std::holds_alternative<session::RequestControl>(command)) {
-        room_.requestControl(place.member);
-    } else {
-        room_.releaseControl(place.member);
-    }
-    if (room_.version() != before) {
-        tellRoom(mail);
-    }
-    return {};
+        if (!room_.shared()) {
+            return Rejection{RejectCode::kUnsupported, 0, "",
+                             "this session is not in a room; you control it"};
+        }
+        const uint64_t before = room_.version();
+        if (const auto* give = std::get_if<session::GiveControl>(&command)) {
+            if (auto given = room_.giveControl(place.member, give->member_id); !given) {
+                return given;
+            }
+        } else if (std::holds_alternative<session::RequestControl>(command)) {
+            room_.requestControl(place.member);
+        } else {
+            room_.releaseControl(place.member);
+        }
+        if (room_.version() != before) {
+            tellRoom(mail);
+        }
+        return {};
+    });
 }
 
 std::optional<TimePoint> LiveSession::passIdleControl(Seconds limit, TimePoint now, Mail& mail) {
@@ -503,17 +504,17 @@ void LiveSession::updateGrant() {
 }
 
 void LiveSession::setDelivery(const Place& place, const session::Delivery& delivery) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    Member* member = find(place);
-    if (member == nullptr) {
-        return;
-    }
-    member->delivery = delivery;
-    updateDelivery();
-    if (picture_ && refined(*picture_) && carries(delivery, *picture_)) {
-        tellFrame(*member, *picture_, mail);
-    }
+    underLock(mutex_, [&](Mail& mail) {
+        Member* member = find(place);
+        if (member == nullptr) {
+            return;
+        }
+        member->delivery = delivery;
+        updateDelivery();
+        if (picture_ && refined(*picture_) && carries(delivery, *picture_)) {
+            tellFrame(*member, *picture_, mail);
+        }
+    });
 }
 
 void LiveSession::setPaused(const Place& place, bool paused, TimePoint now) {
@@ -573,40 +574,41 @@ uint32_t LiveSession::deliveredRung() const {
 }
 
 void LiveSession::deliver(session::ReadyFrame frame) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    ++delivered_;
-    key_wanted_ = key_wanted_ && settings::rowOf(state_.encoding.codec).frames_depend &&
-                  !(frame.record.key && frame.isVideo());
-    if (!refined(frame)) {
-        plain_ = frame;
-    }
-    picture_ = std::move(frame);
-    // In a room, whose refined pictures are for its best link.
-    const bool may_wait = members_.size() > 1 && plainSuffices();
-    for (auto& [id, member] : members_) {
-        if (!may_wait || !member.delivery || carries(*member.delivery, *picture_)) {
-            tellFrame(member, *picture_, mail);
+    underLock(mutex_, [&](Mail& mail) {
+        ++delivered_;
+        key_wanted_ = key_wanted_ && settings::rowOf(state_.encoding.codec).frames_depend &&
+                      !(frame.record.key && frame.isVideo());
+        if (!refined(frame)) {
+            plain_ = frame;
         }
-    }
-    updateGrant();
+        picture_ = std::move(frame);
+        // In a room, whose refined pictures are for its best link.
+        const bool may_wait = members_.size() > 1 && plainSuffices();
+        for (auto& [id, member] : members_) {
+            if (!may_wait || !member.delivery || carries(*member.delivery, *picture_)) {
+                tellFrame(member, *picture_, mail);
+            }
+        }
+        updateGrant();
+    });
 }
 
 void LiveSession::refuse(Error error, SessionState refused, std::optional<SessionState> drawn) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    // A newer state is on its way to the stream and will be tried in its turn.
-    if (state_.version != refused.version) {
-        return;
-    }
-    const bool last = !drawn && refused.settings == first_.settings;
-    tellRefusal(error, refused.applied, last, mail);
-    if (last) {
-        tellAll(mail, Closing{protocol::CloseCode::kNoPicture, "the first picture cannot be made"});
-    } else {
-        takeBack(refused, drawn, Clock::now(), mail);
-        tellState(mail);
-    }
+    underLock(mutex_, [&](Mail& mail) {
+        // A newer state is on its way to the stream and will be tried in its turn.
+        if (state_.version != refused.version) {
+            return;
+        }
+        const bool last = !drawn && refused.settings == first_.settings;
+        tellRefusal(error, refused.applied, last, mail);
+        if (last) {
+            tellAll(mail,
+                    Closing{protocol::CloseCode::kNoPicture, "the first picture cannot be made"});
+        } else {
+            takeBack(refused, drawn, Clock::now(), mail);
+            tellState(mail);
+        }
+    });
 }
 
 // Who asked is told, or who has control where that one is gone. The others hear of the state, which
@@ -660,17 +662,17 @@ void LiveSession::takeBack(const SessionState& refused,
 }
 
 void LiveSession::compiling(bool under_way) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    compiling_ = under_way;
-    tellScene(mail);
+    underLock(mutex_, [&](Mail& mail) {
+        compiling_ = under_way;
+        tellScene(mail);
+    });
 }
 
 void LiveSession::deviceLost(Error error) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    tellAll(mail, Rejection{RejectCode::kDevice, 0, "", error.message});
-    tellAll(mail, Closing{protocol::CloseCode::kDeviceLost, "the device was lost"});
+    underLock(mutex_, [&](Mail& mail) {
+        tellAll(mail, Rejection{RejectCode::kDevice, 0, "", error.message});
+        tellAll(mail, Closing{protocol::CloseCode::kDeviceLost, "the device was lost"});
+    });
 }
 
 } // namespace froxel::net

@@ -53,6 +53,14 @@ class Mail {
     std::vector<std::pair<std::shared_ptr<SessionViewer>, Notice>> letters_;
 };
 
+// Gives what step(mail) does, under the lock; its mail goes out when that is let go.
+template <class Step>
+auto underLock(std::mutex& mutex, const Step& step) {
+    Mail mail;
+    const std::lock_guard lock(mutex);
+    return step(mail);
+}
+
 // One connection of one member: what a newer connection of the same member has replaced has no
 // effect any more.
 struct Place {

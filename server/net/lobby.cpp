@@ -24,28 +24,29 @@ PlaceResult<Seat> Lobby::enter(const Serving& serving,
                                const Caller& caller,
                                std::weak_ptr<SessionViewer> viewer,
                                TimePoint now) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    auto entry = findToken(hello);
-    const bool resumed = entry != entries_.end();
-    if (!resumed) {
-        auto added = addMember(serving, hello, caller, now, mail);
-        if (!added) {
-            return added.error();
+    return underLock(mutex_, [&](Mail& mail) -> PlaceResult<Seat> {
+        auto entry = findToken(hello);
+        const bool resumed = entry != entries_.end();
+        if (!resumed) {
+            auto added = addMember(serving, hello, caller, now, mail);
+            if (!added) {
+                return added.error();
+            }
+            entry = *added;
+        } else {
+            entry->second.token_before = hello.resume_token;
+            entry->second.token = session::makeResumeToken();
         }
-        entry = *added;
-    } else {
-        entry->second.token_before = hello.resume_token;
-        entry->second.token = session::makeResumeToken();
-    }
-    entry->second.connection = ++last_connection_;
-    entry->second.away_until.reset();
-    if (rules_.forget.count() > 0) {
-        alarm_(now + std::chrono::duration_cast<Clock::duration>(rules_.forget));
-    }
-    const Place place{entry->first, last_connection_};
-    auto picture = entry->second.session->attach(place, std::move(viewer), hello.codecs, now, mail);
-    return Seat{entry->second.session, place, entry->second.token, resumed, std::move(picture)};
+        entry->second.connection = ++last_connection_;
+        entry->second.away_until.reset();
+        if (rules_.forget.count() > 0) {
+            alarm_(now + std::chrono::duration_cast<Clock::duration>(rules_.forget));
+        }
+        const Place place{entry->first, last_connection_};
+        auto picture =
+            entry->second.session->attach(place, std::move(viewer), hello.codecs, now, mail);
+        return Seat{entry->second.session, place, entry->second.token, resumed, std::move(picture)};
+    });
 }
 
 // Every token is compared to its end, so that the time says nothing about which one was near.
@@ -217,13 +218,13 @@ void Lobby::end(const LiveSession& session, const Closing& closing, Mail& mail) 
 }
 
 bool Lobby::takeControl(const std::string& room) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    const auto found = rooms_.find(room);
-    if (found != rooms_.end()) {
-        found->second->takeControl(mail);
-    }
-    return found != rooms_.end();
+    return underLock(mutex_, [&](Mail& mail) -> bool {
+        const auto found = rooms_.find(room);
+        if (found != rooms_.end()) {
+            found->second->takeControl(mail);
+        }
+        return found != rooms_.end();
+    });
 }
 
 void Lobby::settle(const Seat& seat) {
@@ -235,20 +236,20 @@ void Lobby::settle(const Seat& seat) {
 }
 
 void Lobby::depart(const Seat& seat, Departure how, TimePoint now) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    const auto entry = entries_.find(seat.place.member);
-    if (entry == entries_.end() || entry->second.connection != seat.place.connection) {
-        return; // a newer connection has the place
-    }
-    const bool keep = how == Departure::kLost && !entry->second.token.empty() && !closed_;
-    if (!keep || countAway() >= kMaxAway) {
-        remove(entry, mail);
-        return;
-    }
-    entry->second.away_until = now + rules_.resume_grace;
-    entry->second.session->detach(seat.place, mail);
-    alarm_(*entry->second.away_until);
+    underLock(mutex_, [&](Mail& mail) {
+        const auto entry = entries_.find(seat.place.member);
+        if (entry == entries_.end() || entry->second.connection != seat.place.connection) {
+            return; // a newer connection has the place
+        }
+        const bool keep = how == Departure::kLost && !entry->second.token.empty() && !closed_;
+        if (!keep || countAway() >= kMaxAway) {
+            remove(entry, mail);
+            return;
+        }
+        entry->second.away_until = now + rules_.resume_grace;
+        entry->second.session->detach(seat.place, mail);
+        alarm_(*entry->second.away_until);
+    });
 }
 
 Lobby::Entries::iterator Lobby::remove(Entries::iterator entry, Mail& mail) {
@@ -274,48 +275,48 @@ void Lobby::passIdleControl(LiveSession& session, TimePoint now) {
 }
 
 void Lobby::expire(TimePoint now) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    std::optional<TimePoint> next;
-    const auto isNext = [&next](TimePoint due) { next = next ? std::min(*next, due) : due; };
-    for (auto entry = entries_.begin(); entry != entries_.end();) {
-        const auto& until = entry->second.away_until;
-        if (until && *until <= now) {
-            entry = remove(entry, mail);
-            continue;
+    underLock(mutex_, [&](Mail& mail) {
+        std::optional<TimePoint> next;
+        const auto isNext = [&next](TimePoint due) { next = next ? std::min(*next, due) : due; };
+        for (auto entry = entries_.begin(); entry != entries_.end();) {
+            const auto& until = entry->second.away_until;
+            if (until && *until <= now) {
+                entry = remove(entry, mail);
+                continue;
+            }
+            if (until) {
+                isNext(*until);
+            }
+            ++entry;
         }
-        if (until) {
-            isNext(*until);
-        }
-        ++entry;
-    }
-    for (const auto& session : std::vector(sessions_)) { // some may end
-        const TimePoint forgotten = session->watchedUntil({rules_.forget, rules_.forget});
-        if (rules_.forget.count() > 0 && forgotten <= now) {
-            end(*session, {protocol::CloseCode::kResting, "nobody watches"}, mail);
-            continue;
-        }
-        if (rules_.forget.count() > 0 && forgotten != TimePoint::max()) {
-            isNext(forgotten);
-        }
-        if (rules_.control_idle.count() > 0) {
-            if (const auto due = session->passIdleControl(rules_.control_idle, now, mail)) {
-                isNext(*due);
+        for (const auto& session : std::vector(sessions_)) { // some may end
+            const TimePoint forgotten = session->watchedUntil({rules_.forget, rules_.forget});
+            if (rules_.forget.count() > 0 && forgotten <= now) {
+                end(*session, {protocol::CloseCode::kResting, "nobody watches"}, mail);
+                continue;
+            }
+            if (rules_.forget.count() > 0 && forgotten != TimePoint::max()) {
+                isNext(forgotten);
+            }
+            if (rules_.control_idle.count() > 0) {
+                if (const auto due = session->passIdleControl(rules_.control_idle, now, mail)) {
+                    isNext(*due);
+                }
             }
         }
-    }
-    if (next) {
-        alarm_(*next);
-    }
+        if (next) {
+            alarm_(*next);
+        }
+    });
 }
 
 void Lobby::close() {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    closed_ = true;
-    for (auto entry = entries_.begin(); entry != entries_.end();) {
-        entry = entry->second.away_until ? remove(entry, mail) : std::next(entry);
-    }
+    underLock(mutex_, [&](Mail& mail) {
+        closed_ = true;
+        for (auto entry = entries_.begin(); entry != entries_.end();) {
+            entry = entry->second.away_until ? remove(entry, mail) : std::next(entry);
+        }
+    });
 }
 
 bool Lobby::waitUntilEmpty(TimePoint deadline) const {
