@@ -28,13 +28,15 @@ ImageDifference compare(const RgbImage& golden, const std::vector<std::byte>& rg
     size_t above = 0;
     for (size_t i = 0; i < pixel_count; ++i) {
         int worst = 0;
+        int of_pixel = 0;
         for (size_t c = 0; c < 3; ++c) {
             const int d = std::abs(std::to_integer<int>(golden.rgb8[i * 3 + c]) -
                                    std::to_integer<int>(rgba8[i * 4 + c]));
-            squares += d * d;
+            of_pixel += d * d;
             worst = std::max(worst, d);
         }
         above += worst > 8 ? 1U : 0U;
+        squares += worst > 8 ? 0 : of_pixel;
     }
     const auto count = static_cast<double>(pixel_count);
     return {std::sqrt(squares / (3 * count)), static_cast<double>(above) / count};

@@ -19,8 +19,8 @@ struct RgbImage {
 [[nodiscard]] std::optional<RgbImage> readPng(const std::filesystem::path& path);
 
 struct ImageDifference {
-    double rmse = 0;          // of 8-bit values
-    double share_above_8 = 0; // pixels with a channel more than 8/255 off
+    double rmse_up_to_8 = 0;  // of 8-bit values, of pixels with no channel more than 8/255 off
+    double share_above_8 = 0; // of the others
 };
 
 // Sizes must be equal; `rgba8` has alpha, which is ignored.
