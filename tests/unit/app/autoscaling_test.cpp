@@ -21,7 +21,8 @@ using namespace std::chrono_literals;
 
 // Of the metric in the manifest, which is in thousandths there.
 double targetOf(const std::string& metric) {
-    std::ifstream file(test::repositoryPath("deploy/kubernetes/components/autoscaler/autoscaler.yaml"));
+    std::ifstream file(
+        test::repositoryPath("deploy/kubernetes/components/autoscaler/autoscaler.yaml"));
     std::ostringstream text;
     text << file.rdbuf();
     const std::regex row("name: " + metric +
