@@ -211,11 +211,12 @@ Watched watchRun(const LoadOptions& options,
     const SignalledStop stop;
     const ProgressLine line;
     watched.result = load::runLoad(run, stop.token(), [&](const load::RunSecond& second) {
-        line.show(loadProgress(run, second));
-        watched.series.push_back(seriesRowOf(second));
+        const SeriesRow row = seriesRowOf(second);
+        line.show(loadProgress(run, second, row));
+        watched.series.push_back(row);
         try {
             if (file) {
-                file->add(watched.series.back());
+                file->add(row);
             }
         } catch (const StartupError& error) {
             failure = error;
@@ -318,7 +319,7 @@ int runFind(const LoadOptions& options) {
             setViewers(run, options, *viewers);
             auto result = load::runLoad(run, stop.token(), [&](const load::RunSecond& second) {
                 line.show(fmt::format("trial {} with {} viewers: {}", trials.size() + 1, *viewers,
-                                      loadProgress(run, second)));
+                                      loadProgress(run, second, seriesRowOf(second))));
                 return nobodyFailed(second);
             });
             stopped = result.stopped;

@@ -297,8 +297,8 @@ std::string loadTable(const RunResult& result, const LoadVerdict& verdict) {
     return table;
 }
 
-std::string loadProgress(const load::RunOptions& run, const load::RunSecond& second) {
-    const SeriesRow row = seriesRowOf(second);
+std::string
+loadProgress(const load::RunOptions& run, const load::RunSecond& second, const SeriesRow& row) {
     const auto whole = [&row](std::string_view column) {
         return static_cast<uint64_t>(valueIn(row, column).value_or(0));
     };

@@ -86,7 +86,9 @@ namespace froxel::app {
 // Empty where none came to measure.
 [[nodiscard]] std::string loadTable(const load::RunResult& result, const LoadVerdict& verdict);
 
-// "12 s, 16 viewers, 0 joining, 0 failed, 512 frames/s, 81.2 Mbit/s".
-[[nodiscard]] std::string loadProgress(const load::RunOptions& run, const load::RunSecond& second);
+// Of a second and the row that it makes: "12 s, 16 viewers, 0 joining, 0 failed, 512 frames/s, 81.2
+// Mbit/s".
+[[nodiscard]] std::string
+loadProgress(const load::RunOptions& run, const load::RunSecond& second, const SeriesRow& row);
 
 } // namespace froxel::app

@@ -297,8 +297,10 @@ TEST(LoadProgress, SaysWhoIsThere) {
     load::RunSecond joining;
     joining.joined = 3;
     joining.ended = 1;
-    EXPECT_EQ(loadProgress(options, joining), "joining: 3 of 4 viewers, 1 failed");
-    EXPECT_EQ(loadProgress(options, second(2, {watching(20, 30)})),
+    EXPECT_EQ(loadProgress(options, joining, seriesRowOf(joining)),
+              "joining: 3 of 4 viewers, 1 failed");
+    const auto watched = second(2, {watching(20, 30)});
+    EXPECT_EQ(loadProgress(options, watched, seriesRowOf(watched)),
               "2 s, 1 viewers, 0 joining, 0 failed, 30 frames/s, 1.0 Mbit/s");
 }
 
