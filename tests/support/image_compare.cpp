@@ -25,6 +25,7 @@ std::optional<RgbImage> readPng(const std::filesystem::path& path) {
 ImageDifference compare(const RgbImage& golden, const std::vector<std::byte>& rgba8) {
     const size_t pixel_count = size_t{golden.width_px} * golden.height_px;
     double squares = 0;
+    double squares_up_to_8 = 0;
     size_t above = 0;
     for (size_t i = 0; i < pixel_count; ++i) {
         int worst = 0;
@@ -36,10 +37,12 @@ ImageDifference compare(const RgbImage& golden, const std::vector<std::byte>& rg
             worst = std::max(worst, d);
         }
         above += worst > 8 ? 1U : 0U;
-        squares += worst > 8 ? 0 : of_pixel;
+        squares += of_pixel;
+        squares_up_to_8 += worst > 8 ? 0 : of_pixel;
     }
     const auto count = static_cast<double>(pixel_count);
-    return {std::sqrt(squares / (3 * count)), static_cast<double>(above) / count};
+    return {std::sqrt(squares / (3 * count)), std::sqrt(squares_up_to_8 / (3 * count)),
+            static_cast<double>(above) / count};
 }
 
 } // namespace froxel::test

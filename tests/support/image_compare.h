@@ -19,8 +19,9 @@ struct RgbImage {
 [[nodiscard]] std::optional<RgbImage> readPng(const std::filesystem::path& path);
 
 struct ImageDifference {
-    double rmse_up_to_8 = 0;  // of 8-bit values, of pixels with no channel more than 8/255 off
-    double share_above_8 = 0; // of the others
+    double rmse = 0;          // of 8-bit values
+    double rmse_up_to_8 = 0;  // the same without pixels that have a channel more than 8/255 off
+    double share_above_8 = 0; // of those pixels
 };
 
 // Sizes must be equal; `rgba8` has alpha, which is ignored.
