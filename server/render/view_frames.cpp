@@ -291,7 +291,7 @@ Result<void> ViewFrames::recordBuilt(FrameSlot& slot,
     slot.material_set = host_work_.pose().materialSet();
     const UploadOffsets offsets = host_work_.upload(slot, effects_.ofFrame());
     prepareParts(slot, plan, offsets);
-    const Seconds fine = partOf(costs.total(), limits.piece * piece_share_);
+    const Seconds fine = partOf(timeOf(prices_), limits.piece * piece_share_);
     const Seconds piece = std::max(limits.piece, fine);
     recordFrame(
         {.scene = scene_,

@@ -15,6 +15,14 @@ vk::Extent2D extentOf(const settings::Size& size) {
 
 } // namespace
 
+Seconds timeOf(const std::vector<PassEstimate>& passes) {
+    Seconds sum{0};
+    for (const auto& pass : passes) {
+        sum += pass.time;
+    }
+    return sum;
+}
+
 vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b) {
     const auto end = [](int32_t at, uint32_t side) { return at + static_cast<int32_t>(side); };
     const int32_t left = std::max(a.offset.x, b.offset.x);
@@ -269,11 +277,7 @@ std::vector<PassEstimate> FrameCosts::passes() const {
 }
 
 Seconds FrameCosts::total() const {
-    Seconds sum{0};
-    for (const auto& pass : passes()) {
-        sum += pass.time;
-    }
-    return sum;
+    return timeOf(passes());
 }
 
 Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {

@@ -55,6 +55,8 @@ struct PassEstimate {
     Seconds time{0};
 };
 
+[[nodiscard]] Seconds timeOf(const std::vector<PassEstimate>& passes);
+
 // What two parts of a picture have in common.
 [[nodiscard]] vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b);
 
