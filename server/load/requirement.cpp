@@ -1,7 +1,7 @@
 #include "load/requirement.h"
 
 #include "core/text.h"
-#include "load/number_from.h"
+#include "load/list_text.h"
 #include "report/statistics.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -310,14 +310,12 @@ bool holds(const Requirement& requirement, double measured) {
 
 Result<std::vector<Requirement>> parseRequirements(std::string_view text) {
     std::vector<Requirement> requirements;
-    for (size_t begin = 0; begin <= text.size();) {
-        const size_t end = std::min(text.find(',', begin), text.size());
-        auto requirement = requirementFrom(text.substr(begin, end - begin));
+    for (const std::string_view part : partsOf(text)) {
+        auto requirement = requirementFrom(part);
         if (!requirement) {
             return requirement.error();
         }
         requirements.push_back(std::move(*requirement));
-        begin = end + 1;
     }
     return requirements;
 }

@@ -1,7 +1,7 @@
 #include "load/stages.h"
 
 #include "core/text.h"
-#include "load/number_from.h"
+#include "load/list_text.h"
 
 #include <algorithm>
 #include <array>
@@ -63,15 +63,12 @@ Result<Stage> stageFrom(std::string_view text) {
 
 Result<std::vector<Stage>> parseStages(std::string_view text) {
     std::vector<Stage> stages;
-    for (size_t begin = 0; begin <= text.size();) {
-        const size_t end = std::min(text.find(',', begin), text.size());
-        const std::string_view one = text.substr(begin, end - begin);
-        const auto stage = stageFrom(one);
+    for (const std::string_view part : partsOf(text)) {
+        const auto stage = stageFrom(part);
         if (!stage) {
             return stage.error();
         }
         stages.push_back(*stage);
-        begin = end + 1;
     }
     const auto refuse = [](const std::string& reason) {
         return Error{ErrorCode::kInvalidArgument, reason};
