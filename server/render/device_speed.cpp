@@ -2,7 +2,7 @@
 
 #include "core/clock.h"
 #include "core/keep_for_good.h"
-#include "render/frame/pass_names.h"
+#include "render/pipelines/pass_names.h"
 #include "render/scene/scene_resources.h"
 
 #include <algorithm>

@@ -1,13 +1,14 @@
 #include "render/host_work.h"
 
 #include "area_light_table/table.h"
-#include "render/blended_recorder.h"
-#include "render/effects/effects.h"
+#include "interface/gbuffer_io.h"
 #include "render/frame/frame_facts.h"
 #include "render/frame/prepass_choice.h"
 #include "render/frame/visibility_instances.h"
 #include "render/lists/grown_lights.h"
 #include "render/pipelines/gbuffer_layout.h"
+#include "render/steps/order.h"
+#include "render/steps/view_steps.h"
 
 #include <algorithm>
 #include <future>
@@ -37,6 +38,13 @@ settings::ViewSettings withLists(settings::ViewSettings settings) {
     settings.renderer = settings::Renderer::kClusteredDeferred;
     settings.light_loop = settings::LightLoop::kLists;
     return settings;
+}
+
+cluster::Lit litBy(const settings::ViewSettings& settings) {
+    const bool medium = std::ranges::any_of(kOrder, [&settings](const StepRow* row) {
+        return row->lights_medium != nullptr && row->lights_medium(settings);
+    });
+    return medium ? cluster::Lit::kMedium : cluster::Lit::kSurfaces;
 }
 
 bool byIds(GeometryPath path) {
@@ -99,35 +107,40 @@ bool HostWork::layersVisible() const {
 
 FrameFacts HostWork::facts(const FrameInputs& inputs) const {
     const auto& traits = scene_.shared.device.traits();
-    return {.wide_gbuffer = inputs.settings.shading == settings::ShadingModel::kLambert
-                                ? pose_.materialSet()->needs.wide_lambert
-                                : pose_.materialSet()->needs.wide_gbuffer,
-            .emission_exponent = pose_.materialSet()->needs.emission_exponent,
-            .specular = pose_.materialSet()->needs.specular,
-            .edges = pose_.materialSet()->needs.edges,
+    const SurfaceNeeds& needs = pose_.materialSet()->needs;
+    const bool lambert = inputs.settings.shading == settings::ShadingModel::kLambert;
+    const bool wide = lambert ? needs.wide_lambert : needs.wide_gbuffer;
+    const auto flag = [](bool has, uint32_t bit) { return has ? bit : 0U; };
+    return {.lights = flag(!lights_.lights.empty(), io::kLightLocal) |
+                      flag(!lights_.spots.empty(), io::kLightSpots) |
+                      flag(!lights_.areas.empty(), io::kLightAreas) |
+                      flag(equalRadii(lights_, inputs.settings.lights), io::kLightEqualRadii) |
+                      flag(lights_.nearest_m < light::kNearest_m, io::kLightSmallScene) |
+                      flag(traits.is_cpu && longLoops(lists_, lights_, traits.subgroup_size),
+                           io::kLightLong) |
+                      flag(!lights_.directionals.empty(), io::kLightDirectional) |
+                      flag(needs.edges, io::kLightEdges),
+            .gbuffer = flag(wide, io::kOutputWideGbuffer | needs.emission_exponent
+                                                               << io::kOutputEmissionShift) |
+                       flag(needs.specular, io::kOutputSpecular),
+            .geometry = compute_raster_ ? SolidGeometry::kComputeIds
+                        : visibility_   ? SolidGeometry::kIds
+                                        : SolidGeometry::kRaster,
+            .lists = !light_grid_.lists() ? ListPlace::kNowhere
+                     : on_device_         ? ListPlace::kDevice
+                                          : ListPlace::kHost,
             .layers_visible = layersVisible(),
             .transparent_visible = !draws_.transparent.empty(),
-            .unlit_solid = pose_.materialSet()->needs.unlit,
-            .local_lights = !lights_.lights.empty(),
-            .spots = !lights_.spots.empty(),
-            .areas = !lights_.areas.empty(),
-            .equal_radii = equalRadii(lights_, inputs.settings.lights),
-            .small_scene = lights_.nearest_m < light::kNearest_m,
-            .long_loops = traits.is_cpu && longLoops(lists_, lights_, traits.subgroup_size),
-            .directional = !lights_.directionals.empty(),
+            .unlit_solid = needs.unlit,
             .keep_radiance = inputs.keep_radiance,
-            .all_lights = !light_grid_.lists(),
             .compute_batches = traits.subgroup_size > 1,
             // Elsewhere a subgroup of fragments may lack some of its invocations at any time.
             .fragment_batches = traits.is_cpu && traits.fragment_subgroups,
             // The lights that pass are the bits of one word. In software a lambert light costs less
-            // than its test.
-            .culled_batches =
-                traits.subgroup_size > 1 && traits.subgroup_size <= 32 &&
-                !(traits.is_cpu && inputs.settings.shading == settings::ShadingModel::kLambert),
-            .whole_groups = traits.is_cpu, // llvmpipe's branches skip nothing
-            .visibility = visibility_,
-            .compute_raster = compute_raster_,
+            // than what would skip it.
+            .culled_batches = traits.subgroup_size > 1 && traits.subgroup_size <= 32 &&
+                              !(traits.is_cpu && lambert),
+            .software_device = traits.is_cpu,
             .cull_meshlets = inputs.cull_meshlets,
             .prepass_pays = prepass(inputs),
             .overdraw_unknown = traits.counts_samples && !scene_.overdraw,
@@ -219,7 +232,7 @@ void HostWork::startCulling() {
         });
 }
 
-void HostWork::advance(ViewEffects& effects) {
+void HostWork::advance(ViewSteps& steps) {
     // Whatever throws ends what was begun.
     switch (*std::exchange(stage_, std::nullopt)) {
     case Stage::kLights:
@@ -240,7 +253,7 @@ void HostWork::advance(ViewEffects& effects) {
             culling_.get();
             culled_ = culls_;
         }
-        plan_ = plan(effects);
+        plan_ = plan(steps);
         stage_ = Stage::kBuilt;
         break;
     case Stage::kBuilt:
@@ -294,7 +307,7 @@ void HostWork::chooseGrid() {
     }
     light_grid_.choose(settings::showsClusters(settings.debug.view) ? withLists(settings)
                                                                     : settings,
-                       reach(), pose_.boundsWorld(), gridCosts(settings));
+                       reach(), pose_.boundsWorld(), litBy(settings), gridCosts(settings));
 }
 
 uint64_t HostWork::entriesOfAStage() const {
@@ -341,15 +354,15 @@ bool HostWork::assignMore() {
     return true;
 }
 
-FramePlan HostWork::plan(ViewEffects& effects) {
+FramePlan HostWork::plan(ViewSteps& steps) {
     const auto& settings = inputs_.settings;
     lists_.stats.why =
         needsLights(settings.debug.view) ? light_grid_.why() : "the debug view shows no light";
     drawn_ = settings.size;
     FrameFacts found = facts(inputs_);
-    effects.look({settings, pose_, lights_, inputs_.time_s, inputs_.keep_surfaces}, found);
+    steps.look(stepInputs(), found);
     planned_ = generalised(found, inputs_.generic);
-    const FramePlan plan = planFrame(settings, planned_);
+    const FramePlan plan = planFrame(settings, planned_, kOrder);
     uniforms_ = makeFrameUniforms(settings, projection_, plan.lists ? &light_grid_.grid() : nullptr,
                                   static_cast<uint32_t>(lights_.lights.size()),
                                   static_cast<uint32_t>(lights_.directionals.size()));
@@ -374,7 +387,8 @@ std::vector<io::WireVertex> HostWork::buildWires(const FrameInputs& inputs, uint
         pose_.lightRig().evaluate(settings.lights, camera, inputs.time_s, wire_lights_);
         settings::ViewSettings frozen = withLists(settings);
         frozen.camera = camera;
-        wire_grid_.choose(frozen, wire_lights_, pose_.boundsWorld(), gridCosts(settings));
+        wire_grid_.choose(frozen, wire_lights_, pose_.boundsWorld(), litBy(settings),
+                          gridCosts(settings));
         shown = &wire_grid_;
     }
     if (!shown->lists()) {
@@ -411,12 +425,6 @@ PairBound HostWork::knownPairs(const FramePlan& plan) const {
     return PairBound::lists(light_grid_.grid(), lists_);
 }
 
-uint64_t HostWork::wireLines(const FramePlan& plan) const {
-    return plan.debug == settings::DebugView::kLightSpheres
-               ? uint64_t{debug_.light_count} * io::kLinesOfALight
-               : debug_.wires.size() / 2;
-}
-
 // With room for what moves between two frames; a frame that has more is drawn again.
 std::optional<PairBound> HostWork::seenPairs() const {
     const auto& grid = light_grid_.grid();
@@ -436,26 +444,17 @@ std::optional<PairBound> HostWork::seenPairs() const {
 
 FrameCosts HostWork::costs(const FramePlan& plan,
                            const settings::Size& shown,
-                           std::span<const ActiveEffect> effects,
+                           std::span<const ActiveStep> steps,
                            const UnitCosts& unit,
                            const WorkLimits& work) {
-    CostInputs load{.plan = plan,
-                    .draws = draws_,
+    CostInputs load{.draws = draws_,
                     .drawn = drawn_,
                     .shown = shown,
                     .pairs = knownPairs(plan),
                     .longest_loop = 0,
                     .directional_count = static_cast<uint32_t>(lights_.directionals.size()),
                     .overdraw = std::max(kUsualOverdraw, scene_.overdraw.value_or(0)),
-                    .peel_layers =
-                        peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
-                    .device_list_lights = on_device_ ? localLightCount() : 0,
-                    .device_lists = on_device_,
-                    .copies_pixels = !scene_.shared.device.traits().is_cpu,
-                    .copies_radiance = inputs_.keep_radiance,
-                    .wire_lines = wireLines(plan),
-                    .wire_px = debug_.wire_px,
-                    .effects = effects};
+                    .steps = steps};
     const MaterialFlags forward_flags = ~plan.forward_unused_material_flags;
     for (const auto* groups : {&draws_.solid, &draws_.transparent}) {
         for (const DrawGroup& group : *groups) {
@@ -463,27 +462,12 @@ FrameCosts HostWork::costs(const FramePlan& plan,
                 std::max(load.lit_surfaces, litSurfaces(group.material_flags & forward_flags));
         }
     }
-    if (plan.visibility_shade || (plan.layers && plan.visibility)) {
-        load.lit_surfaces =
-            std::max(load.lit_surfaces,
-                     litSurfaces(pose_.materialSet()->visibility().material_flags & forward_flags));
-    }
-    if (plan.visibility) {
-        const VisibilityScene& visible = pose_.materialSet()->visibility();
-        load.device_triangles = visible.triangle_count;
-        load.resolve_count = visible.pipelines.bindless()
-                                 ? 1
-                                 : static_cast<uint32_t>(visible.materials_in_use.size());
-    }
     if (!lights_.areas.empty()) {
         load.costly_lights.push_back(
             {.count = static_cast<uint32_t>(lights_.areas.size()), .pair = unit.area_pair});
     }
-    if (plan.pose) {
-        load.posed_vertices = scene_.poser()->vertex_count;
-    }
-    for (const auto& [place, effect] : effects) {
-        effect->addLoad(unit, load);
+    for (const ActiveStep& active : steps) {
+        active.step->addLoad(unit, load);
     }
     load.longest_loop = load.pairs.longest();
     FrameCosts costs(unit, load);
@@ -520,7 +504,7 @@ void HostWork::limitLists(const FrameCosts& costs, const WorkLimits& work, CostI
     }
 }
 
-void HostWork::gather(FrameUpload& upload, std::span<const ActiveEffect> effects) {
+void HostWork::gather(FrameUpload& upload, std::span<const ActiveStep> steps) {
     upload.clear();
     blocks_ = {};
     const auto place = [&](size_t binding, auto span) {
@@ -552,16 +536,9 @@ void HostWork::gather(FrameUpload& upload, std::span<const ActiveEffect> effects
         offsets.instances = upload.add(std::span<const io::InstanceView>(instances_));
         offsets.meshlet_order = upload.add(std::span<const uint32_t>(meshlet_order_));
     }
-    if (!debug_.wires.empty()) {
-        offsets.wires = upload.add(std::span<const io::WireVertex>(debug_.wires));
-    }
-    if (scene_.poser() != nullptr) {
-        offsets.joints = upload.add(pose_.joints());
-        offsets.weights = upload.add(pose_.weights());
-    }
     offsets.commands = upload.add(commands);
-    for (const ActiveEffect& active : effects) {
-        active.effect->gather(upload, blocks_);
+    for (const ActiveStep& active : steps) {
+        active.step->gather(upload, blocks_);
     }
 }
 
@@ -574,10 +551,11 @@ AssignOffsets HostWork::gatherAssignment(FrameUpload& upload) const {
             .spots = upload.add(std::span<const io::AssignSpot>(data.spots))};
 }
 
-UploadOffsets HostWork::upload(FrameSlot& slot, std::span<const ActiveEffect> effects) {
+void HostWork::upload(FrameSlot& slot, std::span<const ActiveStep> steps) {
     slot.upload.commit();
-    for (const ActiveEffect& active : effects) {
-        active.effect->prepare(slot, blocks_);
+    slot.offsets = offsets_;
+    for (const ActiveStep& active : steps) {
+        active.step->prepare(slot, blocks_);
     }
     if (!lights_.areas.empty()) {
         const gpu::Buffer& table = scene_.shared.ltcTable();
@@ -589,7 +567,6 @@ UploadOffsets HostWork::upload(FrameSlot& slot, std::span<const ActiveEffect> ef
         writeAssignment(slot);
     }
     writeFrameSet(scene_.shared.device, slot, blocks_);
-    return offsets_;
 }
 
 void HostWork::writeAssignment(FrameSlot& slot) {
@@ -611,10 +588,6 @@ ListCapacity HostWork::listCapacity() const {
     return on_device_                ? device_lists_.capacity()
            : device_lists_.buffers() ? device_lists_.buffers()->capacity
                                      : ListCapacity{};
-}
-
-uint64_t HostWork::posedBytes() const {
-    return scene_.poser() != nullptr ? PosedVertices::bytes(scene_) : 0;
 }
 
 uint64_t HostWork::hostBytes() const {

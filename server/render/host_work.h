@@ -23,7 +23,7 @@
 
 namespace froxel::render {
 
-class ViewEffects;
+class ViewSteps;
 
 // Keep one a viewer and build into it again: its buffers are reused.
 class HostWork {
@@ -31,7 +31,7 @@ class HostWork {
     HostWork(SceneResources& scene, const ListLimits& limits)
         : scene_(scene), pose_(scene), device_lists_(scene.shared.device, limits) {}
 
-    // Culls, evaluates lights, assigns them to clusters, lets effects look, plans: a stage at a
+    // Culls, evaluates lights, assigns them to clusters, lets steps look, plans: a stage at a
     // time, so that whoever shares the thread waits for one of them at most. Starting anew forgets
     // what was not taken. in_parts: stages that go through lists end after a tenth of a second.
     void start(const FrameInputs& inputs, bool in_parts);
@@ -40,7 +40,7 @@ class HostWork {
         return stage_ && inputs_ == inputs;
     }
     // built() is false.
-    void advance(ViewEffects& effects);
+    void advance(ViewSteps& steps);
     [[nodiscard]] bool built() const { return stage_ == Stage::kBuilt; }
     // Waits for what runs beside the stages.
     void settle() const;
@@ -48,11 +48,11 @@ class HostWork {
     [[nodiscard]] FramePlan take();
     // What the frame that was built takes. Where its lists are made on the device and could make it
     // longer than `piece`, the device looks at them before it shades, and leaves the frame without
-    // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `effects`
+    // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `steps`
     // and this.
     [[nodiscard]] FrameCosts costs(const FramePlan& plan,
                                    const settings::Size& shown,
-                                   std::span<const ActiveEffect> effects,
+                                   std::span<const ActiveStep> steps,
                                    const UnitCosts& unit,
                                    const WorkLimits& work);
     // After a frame with lists from the device: whether they are whole. If not, the frame must be
@@ -60,15 +60,13 @@ class HostWork {
     [[nodiscard]] bool acceptLists(const AssignSlot& lists);
     // What lists held is of no use any more: the frame was refused, and another one comes.
     void forgetLists() { seen_lists_.reset(); }
-    // Adds what build() and effects made to what will be uploaded; nothing is allocated yet.
-    void gather(FrameUpload& upload, std::span<const ActiveEffect> effects);
-    // Puts it into the slot's buffer, prepares effects and describes all of it to the shaders.
-    // Throws vk::SystemError.
-    [[nodiscard]] UploadOffsets upload(FrameSlot& slot, std::span<const ActiveEffect> effects);
+    // Adds what was built and steps have to what will be uploaded; nothing is allocated yet.
+    void gather(FrameUpload& upload, std::span<const ActiveStep> steps);
+    // Puts it into the slot's buffer, prepares steps and describes all of it to the shaders. Throws
+    // vk::SystemError.
+    void upload(FrameSlot& slot, std::span<const ActiveStep> steps);
     // Of what was built: light lists on the device; none: the host made them, or there are none.
     [[nodiscard]] ListCapacity listCapacity() const;
-    // Of the view's own vertices; 0: no mesh bends.
-    [[nodiscard]] uint64_t posedBytes() const;
     // Kept on the host for the next frame, for what grows with the number of lights, and where the
     // scene moves with its size.
     [[nodiscard]] uint64_t hostBytes() const;
@@ -76,6 +74,11 @@ class HostWork {
     void letGo();
 
     [[nodiscard]] const ScenePose& pose() const { return pose_; }
+    // What steps are told of the frame that was built.
+    [[nodiscard]] StepInputs stepInputs() const {
+        return {inputs_.settings,     pose_, lights_, draws_, debug_, inputs_.time_s,
+                inputs_.keep_surfaces};
+    }
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     [[nodiscard]] const light::FrameLights& lights() const { return lights_; }
     // What solid surfaces of the frame with that plan are drawn from.
@@ -108,7 +111,6 @@ class HostWork {
     // Tells the device what to hold its lists against, since nobody knows them yet, and the frame's
     // load what they come to at most; `costs` are by what is known.
     void limitLists(const FrameCosts& costs, const WorkLimits& work, CostInputs& load);
-    [[nodiscard]] uint64_t wireLines(const FramePlan& plan) const;
     [[nodiscard]] const cluster::GridCosts& gridCosts(const settings::ViewSettings& settings) const;
     void startCulling();
     // Whether the frame's lights are all there.
@@ -121,7 +123,7 @@ class HostWork {
     [[nodiscard]] bool capsLists() const;
     // Whether all are capped.
     [[nodiscard]] bool capMore();
-    [[nodiscard]] FramePlan plan(ViewEffects& effects);
+    [[nodiscard]] FramePlan plan(ViewSteps& steps);
     // What pixels loop over.
     [[nodiscard]] const light::FrameLights& reach() const;
     [[nodiscard]] bool assignsOnDevice(const FrameInputs& inputs);

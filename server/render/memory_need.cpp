@@ -1,6 +1,5 @@
 #include "render/memory_need.h"
 
-#include "render/frame/blend_targets.h"
 #include "render/renderer.h"
 
 namespace froxel::render {
@@ -17,23 +16,17 @@ constexpr uint64_t kSlotBytes = 16 << 10U;
 } // namespace
 
 FrameMemory frameMemory(const HostWork& builder,
-                        const FramePlan& plan,
                         const FrameInputs& asked,
                         const TargetNeeds& targets,
-                        std::span<const ActiveEffect> effects) {
-    FrameMemory frame{.drawn = drawnSize(asked.settings),
-                      .shown = asked.settings.size,
-                      .targets = targets,
-                      .readback = readbackBytes(drawnSize(asked.settings), asked.settings.size,
-                                                asked.keep_radiance),
-                      .lists = builder.listCapacity(),
-                      .posed_bytes = builder.posedBytes(),
-                      .host_bytes = builder.hostBytes() + asked.beside_bytes,
-                      .effects = effects};
-    if (plan.blendsApart()) {
-        frame.blend = plan.transparency;
-    }
-    return frame;
+                        std::span<const ActiveStep> steps) {
+    return {.drawn = drawnSize(asked.settings),
+            .shown = asked.settings.size,
+            .targets = targets,
+            .readback =
+                readbackBytes(drawnSize(asked.settings), asked.settings.size, asked.keep_radiance),
+            .lists = builder.listCapacity(),
+            .host_bytes = builder.hostBytes() + asked.beside_bytes,
+            .steps = steps};
 }
 
 std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& image_bytes) {
@@ -44,15 +37,10 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
         need.image(target.name, target.info);
     }
     need.buffer("depth and id words", frame.targets.compute_raster ? kWordBytes * drawn_px : 0);
-    need.buffer("display", frame.targets.display ? packed_bytes : 0);
+    need.buffer("display", frame.targets.display_count * packed_bytes);
     need.buffer("pixels", frame.targets.device_pixels ? packed_bytes : 0);
-    if (frame.blend) {
-        for (const auto& [name, info] : blendImages(*frame.blend, frame.drawn)) {
-            need.image(name, info);
-        }
-    }
-    for (const auto& [place, effect] : frame.effects) {
-        effect->addMemory(need);
+    for (const ActiveStep& active : frame.steps) {
+        active.step->addMemory(need);
     }
     need.buffer(kReadback, frame.readback.pixels * ViewRenderer::kReadbackSlots);
     need.buffer(kRadianceReadback, frame.readback.radiance * ViewRenderer::kReadbackSlots);
@@ -63,7 +51,6 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
         }
         need.buffer("light list counters", kListReadbackBytes * ViewRenderer::kReadbackSlots);
     }
-    need.buffer("posed vertices", frame.posed_bytes);
     need.buffer("counters", kSlotBytes * ViewRenderer::kReadbackSlots);
     need.buffer(kHost, frame.host_bytes);
     return std::move(need.uses);

@@ -21,21 +21,18 @@ struct FrameMemory {
     settings::Size drawn;
     settings::Size shown;
     TargetNeeds targets;
-    std::optional<settings::Transparency> blend = {}; // BlendTargets that there are
-    ReadbackBytes readback;                           // of a slot
-    uint64_t upload_bytes = 0;                        // of all slots together
-    ListCapacity lists;                               // on the device
-    uint64_t posed_bytes = 0;                         // of the view's own vertices
-    uint64_t host_bytes = 0;                          // kept by the host, encoders with it
-    std::span<const ActiveEffect> effects = {};
+    ReadbackBytes readback;    // of a slot
+    uint64_t upload_bytes = 0; // of all slots together
+    ListCapacity lists;        // on the device
+    uint64_t host_bytes = 0;   // kept by the host, encoders with it
+    std::span<const ActiveStep> steps = {};
 };
 
 // Of a frame that was built and gathered; what slots hold is not yet in it.
 [[nodiscard]] FrameMemory frameMemory(const HostWork& builder,
-                                      const FramePlan& plan,
                                       const FrameInputs& asked,
                                       const TargetNeeds& targets,
-                                      std::span<const ActiveEffect> effects);
+                                      std::span<const ActiveStep> steps);
 
 // Steady state: every readback slot has been used. Old targets that a frame in flight still draws
 // into come on top until it is done, which is never on a CPU device.

@@ -1,6 +1,7 @@
 #include "render/memory_report.h"
 
 #include "render/frame/plan_words.h"
+#include "render/steps/order.h"
 
 #include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
@@ -29,10 +30,10 @@ std::vector<MemoryUse> memoryReport(const gpu::MemoryLedger& ledger) {
     return uses;
 }
 
-void FrameDetailsKeeper::logOnce(const Key& key, const std::vector<std::string>& words) {
+void FrameDetailsKeeper::logOnce(const Words& words) {
     constexpr size_t kMost = 64;
-    if (logged_.size() < kMost && std::find(logged_.begin(), logged_.end(), key) == logged_.end()) {
-        logged_.push_back(key);
+    if (logged_.size() < kMost && std::ranges::find(logged_, words) == logged_.end()) {
+        logged_.push_back(words);
         spdlog::info("plan: {}", fmt::join(words, "; "));
     }
 }
@@ -44,15 +45,10 @@ FrameDetailsKeeper::update(const settings::ViewSettings& settings,
                            const SceneNeeds& needs,
                            const gpu::MemoryLedger& ledger,
                            const DebugLegend* legend) {
-    const Key key{settings.renderer,
-                  settings.shading,
-                  settings.gbuffer,
-                  effectWords(settings, plan),
-                  facts,
-                  plan,
-                  legend != nullptr ? std::optional(*legend) : std::nullopt};
+    Words words = frameWords(settings, facts, plan, kOrder);
+    const auto shown = legend != nullptr ? std::optional(*legend) : std::nullopt;
     const uint64_t version = ledger.version();
-    const bool same_plan = key_ == key;
+    const bool same_plan = words_ == words && legend_ == shown;
     if (details_ && same_plan && ledger_version_ == version) {
         return details_;
     }
@@ -60,14 +56,15 @@ FrameDetailsKeeper::update(const settings::ViewSettings& settings,
     if (details_ && same_plan) {
         made.plan = details_->plan;
     } else {
-        made.plan = frameWords(settings, facts, plan);
-        logOnce(key, made.plan);
+        logOnce(words);
+        made.plan = words;
         const auto scene_words = sceneWords(needs);
         made.plan.insert(made.plan.end(), scene_words.begin(), scene_words.end());
     }
     made.memory = memoryReport(ledger);
-    made.legend = key.legend;
-    key_ = key;
+    made.legend = shown;
+    words_ = std::move(words);
+    legend_ = shown;
     ledger_version_ = version;
     if (details_ && same_plan && sameUses(made.memory, details_->memory)) {
         return details_;

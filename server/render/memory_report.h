@@ -29,21 +29,13 @@ class FrameDetailsKeeper {
                                                              const DebugLegend* legend);
 
   private:
-    // Everything that the lines are made of.
-    struct Key {
-        settings::Renderer renderer{};
-        settings::ShadingModel shading{};
-        settings::GbufferLayout gbuffer;
-        std::vector<std::string> effects; // what they say, which any setting may change
-        FrameFacts facts;
-        FramePlan plan;
-        std::optional<DebugLegend> legend;
-        bool operator==(const Key&) const = default;
-    };
-    void logOnce(const Key& key, const std::vector<std::string>& words);
+    using Words = std::vector<std::string>;
 
-    std::optional<Key> key_;
-    std::vector<Key> logged_; // a viewer may go to and fro: each is told once
+    void logOnce(const Words& words);
+
+    Words words_; // of the frame
+    std::optional<DebugLegend> legend_;
+    std::vector<Words> logged_; // a viewer may go to and fro: each is told once
     uint64_t ledger_version_ = 0;
     std::shared_ptr<const FrameDetails> details_;
 };

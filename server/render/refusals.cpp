@@ -97,7 +97,7 @@ canDraw(const FrameInputs& inputs, const SceneResources& scene, MaterialSet& mat
     if (auto peeled = peelable(inputs, scene, material_set); !peeled) {
         return peeled;
     }
-    for (const EffectRow* row : effectRows()) {
+    for (const StepRow* row : kOrder) {
         if (row->able != nullptr) {
             if (auto able = row->able(inputs.settings, scene.shared.device); !able) {
                 return able;
@@ -119,7 +119,7 @@ std::string pictureWords(const settings::ViewSettings& settings) {
     if (settings::samplesAcross(settings.antialiasing) > 1) {
         more.emplace_back("four samples a pixel");
     }
-    for (const EffectRow* row : effectRows()) {
+    for (const StepRow* row : kOrder) {
         if (row->memory_words != nullptr) {
             if (auto words = row->memory_words(settings)) {
                 more.push_back(std::move(*words));

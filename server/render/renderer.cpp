@@ -3,7 +3,7 @@
 #include "core/assert.h"
 #include "gpu/upload.h"
 #include "render/frame/frame_slot.h"
-#include "render/fresh_targets.h"
+#include "render/frame/fresh_targets.h"
 #include "render/refusals.h"
 #include "render/scene/scene_resources.h"
 #include "render/view_frames.h"
@@ -381,8 +381,8 @@ Result<Visibility> ViewRenderer::readVisibility(const scene::Scene& scene) {
     }
 }
 
-const ViewEffects& ViewRenderer::effects() const {
-    return impl_->maker.effects();
+const ViewSteps& ViewRenderer::steps() const {
+    return impl_->maker.steps();
 }
 
 const std::vector<PassEstimate>& ViewRenderer::prices() const {

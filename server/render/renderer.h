@@ -23,7 +23,7 @@ namespace froxel::render {
 
 class DeviceResources;
 class SceneResources;
-class ViewEffects;
+class ViewSteps;
 struct PassEstimate;
 
 struct RenderedFrame {
@@ -150,7 +150,7 @@ class ViewRenderer {
     [[nodiscard]] Result<Visibility> readVisibility(const scene::Scene& scene);
 
     // Those that its frames have had, for tests that look into one.
-    [[nodiscard]] const ViewEffects& effects() const;
+    [[nodiscard]] const ViewSteps& steps() const;
     // What the passes of the frame begun last take by their estimates, for tests.
     [[nodiscard]] const std::vector<PassEstimate>& prices() const;
 

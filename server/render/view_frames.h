@@ -2,11 +2,11 @@
 // the host's part, the targets that frames share, and what a slot needs. Render thread.
 #pragma once
 
-#include "render/effects/effects.h"
 #include "render/frame/frame_slot.h"
 #include "render/host_work.h"
 #include "render/memory_report.h"
 #include "render/renderer.h"
+#include "render/steps/view_steps.h"
 
 #include <memory>
 #include <optional>
@@ -17,7 +17,7 @@ namespace froxel::render {
 class ViewFrames {
   public:
     ViewFrames(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work_limits)
-        : scene_(scene_in), work_(work_limits), host_work_(scene_in, limits), effects_(scene_in),
+        : scene_(scene_in), work_(work_limits), host_work_(scene_in, limits), steps_(scene_in),
           memory_(scene_in.shared.memory) {}
 
     using Slots = std::vector<std::unique_ptr<FrameSlot>>;
@@ -54,7 +54,7 @@ class ViewFrames {
     // Of the frame recorded last; null: none, or none of that.
     [[nodiscard]] const ViewTargets* targets() const { return targets_.get(); }
     [[nodiscard]] MaterialSet& materialSet() const { return *host_work_.pose().materialSet(); }
-    [[nodiscard]] const ViewEffects& effects() const { return effects_; }
+    [[nodiscard]] const ViewSteps& steps() const { return steps_; }
     // Of the passes of the frame begun last.
     [[nodiscard]] const std::vector<PassEstimate>& prices() const { return prices_; }
 
@@ -89,19 +89,12 @@ class ViewFrames {
                                           const Slots& slots);
     // Whether the view's targets hold the surfaces of the frame that was built.
     [[nodiscard]] bool reusesSurfaces(const FramePlan& plan, const FrameInputs& asked) const;
-    // Whether its vertices that bend stand as that frame has them.
-    [[nodiscard]] bool reusesPose(const FrameInputs& asked) const;
     // What they hold once the frame that was recorded has run.
     void noteDrawn(const FramePlan& plan, const SurfacesDrawn& surfaces);
     void prepareTargets(FrameSlot& slot,
                         const FramePlan& plan,
                         const settings::Size& drawn,
                         const settings::Size& shown);
-    void prepareBlend(FrameSlot& slot, const FramePlan& plan);
-    void preparePose(FrameSlot& slot, const UploadOffsets& offsets);
-    void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
-    // What a slot needs besides targets. Throws vk::SystemError.
-    void prepareParts(FrameSlot& slot, const FramePlan& plan, const UploadOffsets& offsets);
     void noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameInputs& inputs);
 
     SceneResources& scene_;
@@ -111,12 +104,10 @@ class ViewFrames {
     HostWork host_work_;
     std::chrono::steady_clock::time_point started_; // what it builds
     double built_us_ = 0;                           // of the host, spent on that
-    ViewEffects effects_;
+    ViewSteps steps_;
     MemoryShare memory_;
     TargetNeeds target_needs_; // of the frame that memory was taken for last
     std::shared_ptr<ViewTargets> targets_;
-    std::shared_ptr<BlendTargets> blend_;  // null: the last frame has none
-    std::shared_ptr<PosedVertices> posed_; // null: no frame yet, or no mesh bends
     FrameDetailsKeeper details_;
     std::vector<PassEstimate> prices_;
 };

@@ -42,7 +42,7 @@ std::vector<float> slicePlanes(const scene::Scene& scene, const render::FrameInp
     render::LightGrid grid;
     auto settings = inputs.settings;
     settings.renderer = settings::Renderer::kForwardPlus;
-    grid.choose(settings, lights, scene.bounds_world, cluster::kCpuCosts);
+    grid.choose(settings, lights, scene.bounds_world, cluster::Lit::kSurfaces, cluster::kCpuCosts);
     return grid.grid().plane_depths_m;
 }
 

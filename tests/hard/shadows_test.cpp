@@ -1,5 +1,5 @@
 // Shadow maps where they are hard: lists stay exact, values finite and memory as asked for.
-#include "render/effects/shadows.h"
+#include "render/steps/shadows.h"
 #include "support/exact.h"
 #include "support/gpu_fixture.h"
 #include "support/shapes.h"
@@ -75,7 +75,7 @@ TEST_F(HardShadows, AThousandKilometresAway_ShadowsAreTheSame) {
         inputs.settings.camera.eye_world = offset;
         inputs.settings.shadows = {1, 128};
         (void)draw(view, inputs);
-        return render::copyShadows(view.effects()).depths;
+        return render::copyShadows(view.steps()).depths;
     };
     const auto here = depthsAt({0, 0, 0});
     const auto there = depthsAt({1e6, -1e6, 1e6});

@@ -1,6 +1,6 @@
 // Bloom of every kind against the same sums in double, and what it promises: a constant picture
 // stays as it is, light is moved and not made, a pixel that moves does not flicker.
-#include "render/effects/bloom_plan.h"
+#include "render/steps/bloom_plan.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/shapes.h"

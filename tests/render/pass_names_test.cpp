@@ -1,7 +1,7 @@
 // Every pass that a frame records has a price, under its own label or under that of the pass whose
 // price holds it.
 #include "render/frame/frame_costs.h"
-#include "render/frame/pass_names.h"
+#include "render/pipelines/pass_names.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"

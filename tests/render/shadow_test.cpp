@@ -2,8 +2,8 @@
 // reference's rays.
 #include "interface/constants.h"
 #include "reference/shade.h"
-#include "render/effects/shadows.h"
 #include "render/scene/scene_resources.h"
+#include "render/steps/shadows.h"
 #include "render/visibility_readback.h"
 #include "support/draw.h"
 #include "support/exact.h"
@@ -171,7 +171,7 @@ TEST_F(Shadows, ACameraThatMoves_LeavesTexelsAsTheyAre) {
         inputs.time_s = 3;
         render::ViewRenderer view(renderer);
         (void)draw(view, inputs);
-        return render::copyShadows(view.effects());
+        return render::copyShadows(view.steps());
     };
     render::Renderer renderer(device(), room);
     const auto first = mapsFrom(renderer, {0.5, 2.2, 7});

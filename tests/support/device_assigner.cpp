@@ -1,7 +1,7 @@
 #include "support/device_assigner.h"
 
 #include "render/frame/frame_slot.h"
-#include "render/frame_recorder.h"
+#include "render/lists/assign_passes.h"
 #include "render/pipelines/host_copies.h"
 
 #include <gtest/gtest.h>

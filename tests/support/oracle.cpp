@@ -82,7 +82,8 @@ PairCheck checkPairs(const scene::Scene& scene,
     clustered.renderer = settings::Renderer::kForwardPlus;
     clustered.light_loop = settings::LightLoop::kLists;
     render::LightGrid chosen;
-    chosen.choose(clustered, lights, scene.bounds_world, cluster::kCpuCosts);
+    chosen.choose(clustered, lights, scene.bounds_world, cluster::Lit::kSurfaces,
+                  cluster::kCpuCosts);
     const cluster::ClusterGrid& grid = chosen.grid();
     cluster::LightLists lists;
     cluster::LightAssigner(1).assign(grid, lights, lists);

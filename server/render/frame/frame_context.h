@@ -1,7 +1,6 @@
 // What recording one frame needs, as passes see it, and how they divide their work into pieces.
 #pragma once
 
-#include "render/frame/debug_frame.h"
 #include "render/frame/draw_list.h"
 #include "render/frame/frame_costs.h"
 #include "render/frame/frame_pieces.h"
@@ -15,30 +14,20 @@
 
 namespace froxel::render {
 
-// Offsets into the slot's upload buffer.
-struct UploadOffsets {
-    vk::DeviceSize rows = 0;
-    vk::DeviceSize commands = 0;
-    // For the visibility passes: io::InstanceView of each, and in which order meshlets are drawn.
-    vk::DeviceSize instances = 0;
-    vk::DeviceSize meshlet_order = 0;
-    vk::DeviceSize wires = 0; // of the cluster grid
-    // What vertices that bend follow.
-    vk::DeviceSize joints = 0;
-    vk::DeviceSize weights = 0;
-};
-
 struct FrameContext {
     SceneResources& scene;
     FrameSlot& slot;
     const FramePlan& plan;
     const DrawList& draws;
-    UploadOffsets offsets;
-    VisibilityScene* visibility = nullptr; // where the plan has it
-    const DebugFrame* debug = nullptr;     // likewise
-    std::span<const ActiveEffect> effects = {};
+    VisibilityScene* visibility = nullptr; // where ids are drawn
+    std::span<const ActiveStep> steps = {};
     FramePieces& pieces; // the slot's
     const FrameCosts& costs;
+    bool spoil_scratch = false; // FrameInputs::spoil_scratch, of a frame that reuses surfaces
+
+    // What it is drawn at, and what is shown of it.
+    [[nodiscard]] const settings::Size& drawn() const { return slot.targets->size; }
+    [[nodiscard]] const settings::Size& shown() const { return slot.targets->shown; }
 };
 
 // Calls record(frame, part) for parts of a picture of `size`, where pieces may end.

@@ -1,7 +1,5 @@
 #include "render/frame/frame_costs.h"
 
-#include "render/frame/pass_names.h"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -81,18 +79,9 @@ RegionCost FrameCosts::shading(const PairCost& unit) const {
             loop(unit)};
 }
 
-RegionCost FrameCosts::depthPrepass() const {
+RegionCost FrameCosts::depth() const {
     return {Seconds(inputs_.draws.triangle_count * unit_.triangle / 2),
             [this](const auto& region) { return Seconds(areaOf(region) * unit_.depth_pixel); }};
-}
-
-RegionCost FrameCosts::forward() const {
-    // Behind a prepass each pixel is shaded once.
-    return shadedSurfaces(inputs_.plan.depth_prepass ? 1.0 : inputs_.overdraw);
-}
-
-RegionCost FrameCosts::layers() const {
-    return inputs_.plan.visibility ? resolved(true) : shadedSurfaces(1);
 }
 
 RegionCost FrameCosts::shadedSurfaces(double each) const {
@@ -104,18 +93,9 @@ RegionCost FrameCosts::shadedSurfaces(double each) const {
             inputs_.lit_surfaces * loop(unit_.fragment)};
 }
 
-RegionCost FrameCosts::gbuffer() const {
+RegionCost FrameCosts::surfaces() const {
     return {Seconds(inputs_.draws.triangle_count * unit_.triangle),
             [this](const auto& region) { return Seconds(areaOf(region) * unit_.surface_pixel); }};
-}
-
-RegionCost FrameCosts::ids() const {
-    return {Seconds(inputs_.device_triangles * unit_.triangle),
-            [this](const auto& region) { return Seconds(areaOf(region) * unit_.depth_pixel); }};
-}
-
-RegionCost FrameCosts::resolve() const {
-    return resolved(inputs_.plan.visibility_shade);
 }
 
 RegionCost FrameCosts::resolved(bool shades) const {
@@ -130,149 +110,18 @@ RegionCost FrameCosts::resolved(bool shades) const {
             shades ? inputs_.lit_surfaces * loop(unit_.compute) : Seconds(0)};
 }
 
-RegionCost FrameCosts::lighting() const {
-    const PairCost& unit = inputs_.plan.lighting_compute ? unit_.compute : unit_.fragment;
-    return shading(unit);
-}
-
-RegionCost FrameCosts::countPairs() const {
-    return shading(unit_.counting);
-}
-
-RegionCost FrameCosts::debugView() const {
-    if (!settings::testsLights(inputs_.plan.debug)) {
-        return screen();
-    }
-    return shading(unit_.counting);
-}
-
-RegionCost FrameCosts::blended() const {
-    return {Seconds(inputs_.draws.transparent_triangle_count * unit_.triangle),
-            [this](const auto& region) {
-                double sum = 0;
-                for (const vk::Rect2D& part : inputs_.draws.transparent_parts) {
-                    const vk::Rect2D both = common(part, region);
-                    if (both.extent.width > 0) {
-                        sum += areaOf(both) * unit_.surface_pixel +
-                               inputs_.lit_surfaces * lit(both, unit_.fragment);
-                    }
-                }
-                return Seconds(sum + areaOf(region) * unit_.depth_pixel);
-            },
-            inputs_.lit_surfaces * loop(unit_.fragment)};
-}
-
 RegionCost FrameCosts::screen() const {
     return {Seconds(0),
             [this](const auto& region) { return Seconds(areaOf(region) * unit_.screen_pixel); }};
 }
 
-RegionCost FrameCosts::radianceToHost() {
-    constexpr double kPixel_s = 1e-9; // 16 bytes at a bus's 16 GB/s; about a CPU's memory, too
-    return {Seconds(0), [](const auto& region) { return Seconds(areaOf(region) * kPixel_s); }};
-}
-
-void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
-    const auto& plan = inputs_.plan;
-    const settings::Size& drawn = inputs_.drawn;
-    const auto add = [&](const char* name, const RegionCost& cost) {
-        passes.push_back({name, timeOver(cost, drawn)});
-    };
-    if (!plan.reused) {
-        if (plan.visibility) {
-            add(pass::kVisibility, ids());
-        } else if (plan.depth_prepass || !(plan.forward || plan.gbuffer)) {
-            add(pass::kDepthPrepass, depthPrepass());
-        }
-        if (plan.gbuffer) {
-            plan.visibility ? add(pass::kResolve, resolve()) : add(pass::kGbuffer, gbuffer());
-        }
-    }
-    if (plan.visibility_shade) {
-        add(pass::kShade, resolve());
-    } else if (plan.forward) {
-        add(pass::kForward, forward());
-    }
-    if (plan.lighting_compute || plan.lighting_fragment) {
-        add(pass::kLighting, lighting());
-    }
-    if (plan.layers) {
-        add(pass::kLayers, layers());
-    }
-    if (plan.toon_pass) {
-        add(pass::kToon, screen());
-    }
-    if (plan.outline) {
-        add(pass::kOutline, screen());
-    }
-    if (plan.count_pairs) {
-        add(pass::kCountPairs, countPairs());
-    }
-}
-
-void FrameCosts::addEffects(EffectPlace place, std::vector<PassEstimate>& passes) const {
-    for (const auto& [at, effect] : inputs_.effects) {
-        if (at == place) {
-            effect->addCosts(*this, passes);
-        }
-    }
-}
-
-void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
-    const settings::Size& drawn = inputs_.drawn;
-    addEffects(EffectPlace::kSolid, passes);
-    if (inputs_.plan.transparent) {
-        const bool peeled = inputs_.plan.transparency == settings::Transparency::kPeeled;
-        const double layers = peeled ? inputs_.peel_layers : 1;
-        passes.push_back(
-            {peeled ? pass::kPeel : pass::kTransparent, layers * timeOver(blended(), drawn)});
-        if (inputs_.plan.over_unlit) {
-            passes.push_back({pass::kBlendOverUnlit, timeOver(screen(), drawn)});
-        } else if (inputs_.plan.blendsApart()) {
-            passes.push_back({pass::kBlendResolve, timeOver(screen(), drawn)});
-        }
-    }
-}
-
-void FrameCosts::addToHost(std::vector<PassEstimate>& passes) const {
-    if (inputs_.copies_pixels) {
-        passes.push_back({pass::kReadback, pixelsToHost()});
-    }
-    if (inputs_.copies_radiance) {
-        passes.push_back({pass::kRadianceReadback, timeOver(radianceToHost(), inputs_.drawn)});
-    }
-}
-
 std::vector<PassEstimate> FrameCosts::passes() const {
     std::vector<PassEstimate> passes;
-    if (inputs_.plan.pose && !inputs_.plan.pose_reused) {
-        passes.push_back({pass::kPose, pose()});
-    }
-    if (inputs_.device_lists) {
-        passes.push_back({pass::kAssign, assign()});
-    }
-    addEffects(EffectPlace::kLights, passes);
-    if (settings::replacesPicture(inputs_.plan.debug)) {
-        if (inputs_.plan.debug == settings::DebugView::kOverdraw) {
-            passes.push_back({pass::kOverdraw, timeOver(gbuffer(), inputs_.drawn)});
-        } else {
-            addSurfaces(passes);
+    for (const ActiveStep& active : inputs_.steps) {
+        if (!active.reused) {
+            active.step->addCosts(*this, passes);
         }
-        passes.push_back({pass::kDebugView, timeOver(debugView(), inputs_.drawn)});
-        addToHost(passes);
-        return passes;
     }
-    addSurfaces(passes);
-    addBlended(passes);
-    addEffects(EffectPlace::kPicture, passes);
-    if (inputs_.wire_lines > 0) {
-        passes.push_back({pass::kWires, wires(inputs_.wire_lines)});
-    }
-    if (inputs_.plan.tonemap) {
-        passes.push_back({pass::kTonemap, timeOver(screen(), inputs_.shown)});
-    }
-    addEffects(EffectPlace::kPixels, passes);
-    addToHost(passes);
     return passes;
 }
 
@@ -307,22 +156,9 @@ Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {
 }
 
 double FrameCosts::slowestLoop() const {
-    const FramePlan& plan = inputs_.plan;
-    const bool replaced = settings::replacesPicture(plan.debug);
     double slowest = 0;
-    const auto add = [&](bool is_there, double loop) {
-        slowest = is_there ? std::max(slowest, loop) : slowest;
-    };
-    add(!replaced && plan.lighting_compute, unit_.compute.loop);
-    const bool layers_by_ids = plan.layers && plan.visibility;
-    add(!replaced && (plan.visibility_shade || layers_by_ids),
-        inputs_.lit_surfaces * unit_.compute.loop);
-    add(!replaced && plan.lighting_fragment, unit_.fragment.loop);
-    add(!replaced && (plan.forward || (plan.layers && !layers_by_ids) || plan.transparent),
-        inputs_.lit_surfaces * unit_.fragment.loop);
-    add(plan.count_pairs || (replaced && settings::testsLights(plan.debug)), unit_.counting.loop);
-    for (const auto& [place, effect] : inputs_.effects) {
-        slowest = std::max(slowest, effect->loopCost(unit_));
+    for (const ActiveStep& active : inputs_.steps) {
+        slowest = std::max(slowest, active.step->loopCost(*this));
     }
     return slowest;
 }

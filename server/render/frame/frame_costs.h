@@ -5,9 +5,8 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "render/frame/draw_list.h"
-#include "render/frame/effect.h"
 #include "render/frame/frame_pieces.h"
-#include "render/frame/frame_plan.h"
+#include "render/frame/step.h"
 #include "render/lists/pair_bound.h"
 #include "render/scene/unit_costs.h"
 
@@ -26,7 +25,6 @@ struct CostInputs {
         double pair = 0; // seconds more, at a pixel
     };
 
-    const FramePlan& plan;
     const DrawList& draws;
     settings::Size drawn;
     settings::Size shown;
@@ -34,20 +32,11 @@ struct CostInputs {
     uint64_t longest_loop = 0; // of `pairs`, where it is more than a bound; 0: not known
     uint32_t directional_count = 0;
     std::vector<CostlyLights> costly_lights = {};
-    double lit_pixel = 0;    // seconds more to light a pixel, whatever its lights
-    double lit_surfaces = 1; // largest factor on a pixel of the forward shader (litSurfaces())
-    double overdraw = 1;     // of solid surfaces, in fragments per pixel
-    uint32_t device_triangles = 0; // that the host does not cull
-    uint64_t posed_vertices = 0;
+    double lit_pixel = 0;       // seconds more to light a pixel, whatever its lights
+    double lit_surfaces = 1;    // largest factor on a pixel of the forward shader (litSurfaces())
+    double overdraw = 1;        // of solid surfaces, in fragments per pixel
     uint32_t resolve_count = 1; // dispatches over the picture where ids are resolved
-    uint32_t peel_layers = 0;
-    uint32_t device_list_lights = 0; // local lights whose lists the device makes
-    bool device_lists = false;       // it makes lists
-    bool copies_pixels = false;      // packed pixels are copied to the host
-    bool copies_radiance = false;    // so is the linear picture
-    uint64_t wire_lines = 0;         // of an overlay
-    double wire_px = 0;              // that they cover
-    std::span<const ActiveEffect> effects = {};
+    std::span<const ActiveStep> steps = {};
 };
 
 struct PassEstimate {
@@ -77,43 +66,31 @@ class FrameCosts {
   public:
     FrameCosts(const UnitCosts& unit, CostInputs load) : unit_(unit), inputs_(std::move(load)) {}
 
-    [[nodiscard]] Seconds pose() const {
-        return Seconds(static_cast<double>(inputs_.posed_vertices) * unit_.posed_vertex);
-    }
-    // Of passes over the drawn picture.
-    [[nodiscard]] RegionCost depthPrepass() const;
-    [[nodiscard]] RegionCost forward() const;
-    [[nodiscard]] RegionCost layers() const; // over lit surfaces, however few have any
-    [[nodiscard]] RegionCost gbuffer() const;
-    [[nodiscard]] RegionCost ids() const;
-    [[nodiscard]] RegionCost resolve() const; // ids into a G-buffer, or shaded at once
-    [[nodiscard]] RegionCost lighting() const;
-    [[nodiscard]] RegionCost countPairs() const;
-    [[nodiscard]] RegionCost debugView() const;
-    [[nodiscard]] RegionCost blended() const; // one pass over what is blended
+    // Over the drawn picture: solid surfaces' depth alone; with their material; by the forward
+    // shader, each pixel so many times; ids resolved, with lights or without.
+    [[nodiscard]] RegionCost depth() const;
+    [[nodiscard]] RegionCost surfaces() const;
+    [[nodiscard]] RegionCost shadedSurfaces(double each) const;
+    [[nodiscard]] RegionCost resolved(bool shades) const;
+    // A pass that only adds up lights.
+    [[nodiscard]] RegionCost shading(const PairCost& unit) const;
     // Over another one: tone map, filters, what blending came to.
     [[nodiscard]] RegionCost screen() const;
-    [[nodiscard]] static RegionCost radianceToHost();
-    [[nodiscard]] Seconds pixelsToHost() const {
-        const auto& size = inputs_.shown;
-        return Seconds(static_cast<double>(size.width_px) * size.height_px * unit_.copied_pixel);
+    // Of an overlay, that cover so many pixels each.
+    [[nodiscard]] Seconds lines(uint64_t count, double each_px) const {
+        return Seconds(static_cast<double>(count) * (unit_.wire_line + each_px * unit_.wire_pixel));
     }
-    // Light lists on the device.
-    [[nodiscard]] Seconds assign() const {
-        return Seconds(unit_.assign + inputs_.device_list_lights * unit_.assign_light);
-    }
-    [[nodiscard]] Seconds wires(uint64_t line_count) const {
-        const auto lines = static_cast<double>(std::max<uint64_t>(inputs_.wire_lines, 1));
-        return Seconds(static_cast<double>(line_count) *
-                       (unit_.wire_line + inputs_.wire_px / lines * unit_.wire_pixel));
+    // Of one pixel, a light, where the forward shader adds them up.
+    [[nodiscard]] double shadedLoop(const PairCost& unit) const {
+        return inputs_.lit_surfaces * unit.loop;
     }
 
-    // For effects that loop over lights: shading all of them, without materials, seconds; and the
+    // For passes that loop over lights: shading all of them, without materials, seconds; and the
     // longest loop of one pixel, which cutting a region does not make shorter.
     [[nodiscard]] double lit(const vk::Rect2D& region, const PairCost& unit) const;
     [[nodiscard]] Seconds loop(const PairCost& unit) const;
 
-    // All of the plan, in order; what a frame takes that is not cut.
+    // Of all steps that are not reused, in order; what a frame takes that is not cut.
     [[nodiscard]] std::vector<PassEstimate> passes() const;
     [[nodiscard]] Seconds total() const;
     // Errors: kTooLong where that is more than `limit`, naming the dearest pass, or where one
@@ -129,17 +106,8 @@ class FrameCosts {
     [[nodiscard]] const UnitCosts& unit() const { return unit_; }
 
   private:
-    // A pass that only adds up lights.
-    [[nodiscard]] RegionCost shading(const PairCost& unit) const;
-    // By the forward shader, each pixel so many times.
-    [[nodiscard]] RegionCost shadedSurfaces(double each) const;
-    [[nodiscard]] RegionCost resolved(bool shades) const; // ids, with lights or without
     // Of the frame's passes, seconds a light.
     [[nodiscard]] double slowestLoop() const;
-    void addSurfaces(std::vector<PassEstimate>& passes) const;
-    void addEffects(EffectPlace place, std::vector<PassEstimate>& passes) const;
-    void addBlended(std::vector<PassEstimate>& passes) const;
-    void addToHost(std::vector<PassEstimate>& passes) const;
 
     UnitCosts unit_;
     CostInputs inputs_;

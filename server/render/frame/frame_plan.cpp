@@ -5,6 +5,7 @@
 #include "render/pipelines/gbuffer_layout.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace froxel::render {
 
@@ -52,53 +53,122 @@ uint32_t lightFlags(const settings::ViewSettings& settings,
                     bool lists,
                     bool compute) {
     uint32_t flags = 0;
-    if (facts.local_lights) {
-        flags |= io::kLightLocal;
+    if (facts.hasLight(io::kLightLocal)) {
+        constexpr uint32_t kOthers = io::kLightShadows | io::kLightDirectional | io::kLightEdges;
+        flags |= facts.lights & ~kOthers;
         flags |= lists ? io::kLightLists | sliceFlags(settings.grid.law) : 0U;
-        flags |= facts.spots ? io::kLightSpots : 0U;
-        flags |= facts.areas ? io::kLightAreas : 0U;
-        flags |= facts.equal_radii ? io::kLightEqualRadii : 0U;
-        flags |= facts.small_scene ? io::kLightSmallScene : 0U;
-        flags |= facts.long_loops ? io::kLightLong : 0U;
         if (compute) {
             flags |= facts.compute_batches ? io::kLightBatched : 0U;
         } else {
             flags |= facts.fragment_batches ? io::kLightBatched | io::kLightPartial : 0U;
         }
         // All lights stay the plain loop: what lists are measured and tested against.
-        const bool culled = lists && facts.culled_batches && !facts.long_loops;
+        const bool culled = lists && facts.culled_batches && !facts.hasLight(io::kLightLong);
         flags |= culled && (flags & io::kLightBatched) != 0 ? io::kLightCulled : 0U;
     }
-    flags |= facts.directional ? io::kLightDirectional : 0U;
+    flags |= facts.lights & io::kLightDirectional;
     flags |= flags != 0 ? toonFlags(settings) : 0U;
     flags |= shadingFlag(settings.shading);
     flags |=
-        facts.edges && settings.shading != settings::ShadingModel::kLambert ? io::kLightEdges : 0U;
+        settings.shading != settings::ShadingModel::kLambert ? facts.lights & io::kLightEdges : 0U;
     return flags;
 }
 
-// A debug view in the picture's place: the surfaces that it shows, and no lighting.
-void replacePicture(FramePlan& plan,
-                    const settings::ViewSettings& settings,
-                    const FrameFacts& facts) {
+Solid solidOf(const settings::ViewSettings& settings, const FrameFacts& facts) {
     const settings::DebugView debug = settings.debug.view;
-    const bool overdraw = debug == settings::DebugView::kOverdraw;
+    const bool forward = isForward(settings.renderer);
+    if (!settings::replacesPicture(debug)) {
+        return forward ? Solid::kForward : Solid::kDeferred;
+    }
+    if (debug == settings::DebugView::kOverdraw) {
+        return Solid::kOverdraw;
+    }
     // Depths that compute rasters are exact once the G-buffer is filled.
-    plan.gbuffer = !overdraw && (!isForward(settings.renderer) || settings::showsMaterial(debug) ||
-                                 plan.compute_raster);
-    plan.depth_prepass &= plan.gbuffer;
-    plan.depth_prepass |= !overdraw && !plan.gbuffer && !plan.visibility;
-    plan.count_samples = facts.overdraw_unknown && !overdraw && !plan.visibility;
-    plan.forward = plan.visibility_shade = false;
-    plan.lighting_compute = plan.lighting_fragment = plan.layers = false;
-    plan.toon_pass = plan.transparent = false;
-    plan.transparency = settings::Transparency::kSorted;
-    plan.peel_layers = 0;
-    plan.over_unlit = false;
-    plan.outline = plan.samples = false; // nothing is done to what it shows
-    std::erase_if(plan.effects,
-                  [](const auto& it) { return it.row->place != EffectPlace::kLights; });
-    plan.lists &= settings::countsLights(debug) || settings::showsClusters(debug);
+    return !forward || settings::showsMaterial(debug) ||
+                   facts.geometry == SolidGeometry::kComputeIds
+               ? Solid::kShownGbuffer
+               : Solid::kShownDepth;
+}
+
+// Where solid surfaces are lit. Lights are added up fastest in compute; but light from around alone
+// takes as long in either stage, and the fragment stage has none of it where nothing is drawn.
+bool lightsInCompute(const settings::ViewSettings& settings,
+                     const FrameFacts& facts,
+                     const FramePlan& plan) {
+    using settings::LightingStage;
+    if (plan.solid == Solid::kForward) {
+        return plan.byIds();
+    }
+    if (plan.solid != Solid::kDeferred) {
+        return false;
+    }
+    if (settings.lighting != LightingStage::kAuto) {
+        return settings.lighting == LightingStage::kCompute;
+    }
+    return !facts.software_device || facts.hasLight(io::kLightLocal) ||
+           settings.environment.light == settings::EnvironmentLight::kOff;
+}
+
+// What surfaces and lights are drawn as, whatever the steps.
+FramePlan planVariants(const settings::ViewSettings& settings, const FrameFacts& facts) {
+    FramePlan plan{.solid = solidOf(settings, facts),
+                   .geometry = facts.geometry,
+                   .debug = settings.debug.view};
+    const bool replaced = settings::replacesPicture(plan.debug);
+    const bool local = facts.hasLight(io::kLightLocal);
+    plan.lists = local && facts.lists != ListPlace::kNowhere &&
+                 (replaced ? (settings::showsClusters(plan.debug) ||
+                              (settings::countsLights(plan.debug) &&
+                               settings.renderer != settings::Renderer::kNaive))
+                           : (settings.renderer != settings::Renderer::kNaive ||
+                              settings::showsClusters(plan.debug)));
+    plan.lights_in_compute = lightsInCompute(settings, facts, plan);
+    plan.count_samples = facts.overdraw_unknown && !plan.byIds() && plan.solid != Solid::kOverdraw;
+    plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
+    plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, plan.lights_in_compute);
+    plan.tone_output_flags = settings.tone_map == settings::ToneMap::kClamp ? io::kOutputClamp : 0U;
+    if (plan.solid == Solid::kDeferred || plan.solid == Solid::kShownGbuffer) {
+        // A forward renderer's, for a debug view: the default.
+        const settings::GbufferLayout layout =
+            isForward(settings.renderer) ? settings::GbufferLayout{} : settings.gbuffer;
+        const bool specular = storesSpecular(settings, (facts.gbuffer & io::kOutputSpecular) != 0);
+        plan.gbuffer_output_flags = (facts.gbuffer & ~uint32_t{io::kOutputSpecular}) |
+                                    (specular ? io::kOutputSpecular : 0U) | layoutFlags(layout);
+    }
+    plan.gbuffer_unused_material_flags = kLayerFlags;
+    if (settings.shading == settings::ShadingModel::kLambert) {
+        plan.forward_unused_material_flags = kLayerFlags;
+        plan.gbuffer_unused_material_flags |=
+            textureFlag(io::metallic_roughness_slot) | kSpecularFlags;
+    }
+    return plan;
+}
+
+// Who packs pixels, and where: through every filter that follows, one after another.
+void placePixels(FramePlan& plan) {
+    std::vector<StepPlan*> filters;
+    StepPlan* packer = nullptr;
+    size_t packer_index = 0;
+    for (size_t i = 0; i < plan.steps.size(); ++i) {
+        StepPlan& step = plan.steps[i].plan;
+        if (step.filters) {
+            filters.push_back(&step);
+        } else if (step.can_pack) {
+            packer = &step;
+            packer_index = i;
+        }
+    }
+    if (packer == nullptr) {
+        return; // a plan of some rows alone
+    }
+    packer->leaves_radiance = plan.uses(Resource::kRadiance, packer_index + 1);
+    StepPlan* from = packer;
+    for (size_t i = 0; i < filters.size(); ++i) {
+        const Resource between = i % 2 == 0 ? Resource::kDisplay : Resource::kDisplay2;
+        from->packs = filters[i]->packed = between;
+        from = filters[i];
+    }
+    from->packs = Resource::kPixels;
 }
 
 } // namespace
@@ -122,21 +192,53 @@ bool drawsLayers(const settings::ViewSettings& settings, bool scene_layers) {
            settings.shading != settings::ShadingModel::kLambert;
 }
 
-bool leavesSurfaces(const FramePlan& plan) {
-    return (plan.visibility || plan.gbuffer || plan.depth_prepass) && !plan.count_samples &&
-           plan.debug != settings::DebugView::kOverdraw;
+const StepPlan* FramePlan::find(const StepRow& row) const {
+    const auto at = std::ranges::find(steps, &row, &PlannedStep::row);
+    return at != steps.end() ? &at->plan : nullptr;
 }
 
-bool FramePlan::hasEffect(EffectPlace place) const {
-    return std::ranges::any_of(effects, [place](const auto& it) { return it.row->place == place; });
+bool FramePlan::uses(Resource what, size_t first) const {
+    return std::any_of(steps.begin() + static_cast<std::ptrdiff_t>(first), steps.end(),
+                       [&](const PlannedStep& step) {
+                           const auto uses = step.uses(*this);
+                           return std::ranges::find(uses, what, &Use::what) != uses.end();
+                       });
+}
+
+bool writesOnly(std::span<const Use> uses, std::span<const Resource> these) {
+    const auto outside = [&](const Use& use) {
+        return writes(use) && std::ranges::find(these, use.what) == these.end();
+    };
+    return std::ranges::any_of(uses, writes) && std::ranges::none_of(uses, outside);
+}
+
+void FramePlan::reuse(std::span<const Resource> written) {
+    for (PlannedStep& step : steps) {
+        step.reused |= writesOnly(step.uses(*this), written);
+    }
+}
+
+bool leavesSurfaces(const FramePlan& plan) {
+    return !plan.count_samples && std::ranges::any_of(plan.steps, [&](const PlannedStep& step) {
+        return writesOnly(step.uses(plan), kSurfaceResources);
+    });
+}
+
+bool reusesSurfaces(const FramePlan& plan) {
+    return std::ranges::any_of(plan.steps, [&](const PlannedStep& step) {
+        return step.reused && writesOnly(step.uses(plan), kSurfaceResources);
+    });
 }
 
 FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
-    facts.spots |= parts.spots && facts.local_lights;
-    facts.directional |= parts.directional;
-    facts.wide_gbuffer |= parts.wide_gbuffer;
+    const auto alter = [&facts](bool there, uint32_t add, uint32_t remove) {
+        facts.lights = there ? (facts.lights | add) & ~remove : facts.lights;
+    };
+    alter(parts.spots && facts.hasLight(io::kLightLocal), io::kLightSpots, 0);
+    alter(parts.directional, io::kLightDirectional, 0);
+    alter(parts.uneven_radii, 0, io::kLightEqualRadii);
+    facts.gbuffer |= parts.wide_gbuffer ? io::kOutputWideGbuffer : 0U;
     facts.transparent_visible |= parts.transparent;
-    facts.equal_radii &= !parts.uneven_radii;
     facts.compute_batches &= !parts.plain_loops;
     facts.fragment_batches &= !parts.plain_loops;
     facts.culled_batches &= !parts.uncut_loops;
@@ -150,114 +252,23 @@ settings::Size drawnSize(const settings::ViewSettings& settings) {
     return {settings.size.width_px * across, settings.size.height_px * across};
 }
 
-namespace {
-
-// Where a G-buffer is lit. Lights are added up fastest in compute; but light from around alone
-// takes as long in either stage, and the fragment stage has none of it where nothing is drawn.
-bool lightsInCompute(const settings::ViewSettings& settings, const FrameFacts& facts) {
-    using settings::LightingStage;
-    if (settings.lighting != LightingStage::kAuto) {
-        return settings.lighting == LightingStage::kCompute;
-    }
-    return !facts.whole_groups || facts.local_lights ||
-           settings.environment.light == settings::EnvironmentLight::kOff;
-}
-
-// Which passes there are.
-FramePlan planPasses(const settings::ViewSettings& settings, const FrameFacts& facts) {
-    using settings::Renderer;
-    FramePlan plan;
-    const Renderer renderer = settings.renderer;
-    plan.pose = facts.bends;
-    plan.visibility = facts.visibility;
-    plan.compute_raster = facts.visibility && facts.compute_raster;
-    plan.visibility_shade = facts.visibility && isForward(renderer);
-    plan.cull_meshlets = facts.cull_meshlets;
-    plan.forward = isForward(renderer) && !plan.visibility_shade;
-    plan.gbuffer = !isForward(renderer);
-    const bool rastered = plan.forward || (plan.gbuffer && !plan.visibility);
-    plan.depth_prepass = rastered && renderer != Renderer::kNaive && facts.prepass_pays;
-    plan.count_samples = rastered && facts.overdraw_unknown;
-    plan.lighting_compute = plan.gbuffer && lightsInCompute(settings, facts);
-    plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
-    plan.layers = drawsLayers(settings, facts.layers_visible);
-    plan.toon_pass = renderer == Renderer::kToonCompute;
-    plan.toon_bands = plan.toon_pass && settings.toon.bands > 0;
-    plan.outline = isToon(renderer) && settings.toon_outline.strength > 0;
-    plan.samples = settings::samplesAcross(settings.antialiasing) > 1;
-    for (const EffectRow* row : effectRows()) {
-        if (const auto effect = row->plan(settings, facts)) {
-            plan.effects.push_back({row, *effect});
+FramePlan planFrame(const settings::ViewSettings& settings,
+                    const FrameFacts& facts,
+                    std::span<const StepRow* const> rows) {
+    FramePlan plan = planVariants(settings, facts);
+    const bool replaced = settings::replacesPicture(plan.debug);
+    for (const StepRow* row : rows) {
+        if (replaced && row->part == StepPart::kPicture) {
+            continue;
+        }
+        if (const auto step = row->plan({settings, facts, plan})) {
+            plan.forward_light_flags |= step->light_flags;
+            plan.lighting_light_flags |= step->light_flags;
+            plan.blended_output_flags |= step->blended_output_flags;
+            plan.steps.push_back({row, *step});
         }
     }
-    plan.transparent = facts.transparent_visible;
-    if (plan.transparent) {
-        plan.transparency = settings.transparency;
-        plan.over_unlit = facts.unlit_solid;
-        plan.peel_layers =
-            settings.transparency == settings::Transparency::kPeeled ? settings.peel_layers : 0;
-    }
-    plan.debug = settings.debug.view;
-    plan.lists = (renderer != Renderer::kNaive || settings::showsClusters(plan.debug)) &&
-                 facts.local_lights && !facts.all_lights;
-    plan.count_pairs = settings.count_pairs && facts.local_lights;
-
-    if (settings::replacesPicture(plan.debug)) {
-        replacePicture(plan, settings, facts);
-    }
-    return plan;
-}
-
-} // namespace
-
-FramePlan planFrame(const settings::ViewSettings& settings, const FrameFacts& facts) {
-    FramePlan plan = planPasses(settings, facts);
-
-    // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
-    const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
-    const bool follows = plan.layers || plan.transparent || plan.outline || plan.samples ||
-                         plan.hasEffect(EffectPlace::kSolid) ||
-                         plan.hasEffect(EffectPlace::kPicture) || settings::isOverlay(plan.debug);
-    const bool compute_ends = !follows && (compute_lights || plan.toon_pass);
-    plan.tonemap = !compute_ends && !settings::replacesPicture(plan.debug);
-    plan.radiance = plan.tonemap || plan.toon_pass || facts.keep_radiance ||
-                    plan.debug == settings::DebugView::kOverdraw;
-
-    plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
-    plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, compute_lights);
-
-    for (const auto& [row, effect] : plan.effects) {
-        plan.forward_light_flags |= effect.light_flags;
-        plan.lighting_light_flags |= effect.light_flags;
-        plan.blended_output_flags |= effect.blended_output_flags;
-    }
-
-    const uint32_t wide = facts.wide_gbuffer
-                              ? io::kOutputWideGbuffer | facts.emission_exponent
-                                                             << io::kOutputEmissionShift
-                              : 0U;
-    plan.tone_output_flags = settings.tone_map == settings::ToneMap::kClamp ? io::kOutputClamp : 0U;
-    const uint32_t pixels = io::kOutputPixels | plan.tone_output_flags;
-    const settings::GbufferLayout layout = // a forward renderer's, for a debug view: the default
-        isForward(settings.renderer) ? settings::GbufferLayout{} : settings.gbuffer;
-    const uint32_t specular = storesSpecular(settings, facts.specular) ? io::kOutputSpecular : 0U;
-    plan.gbuffer_output_flags = plan.gbuffer ? wide | specular | layoutFlags(layout) : 0U;
-    plan.lighting_output_flags = plan.gbuffer_output_flags;
-    plan.gbuffer_unused_material_flags = kLayerFlags;
-    if (settings.shading == settings::ShadingModel::kLambert) {
-        plan.forward_unused_material_flags = kLayerFlags;
-        plan.gbuffer_unused_material_flags |=
-            textureFlag(io::metallic_roughness_slot) | kSpecularFlags;
-    }
-    if (compute_lights) {
-        plan.lighting_output_flags |= plan.radiance ? io::kOutputRadiance : 0U;
-        plan.lighting_output_flags |= compute_ends && !plan.toon_pass ? pixels : 0U;
-    }
-    if (plan.toon_pass) {
-        plan.toon_output_flags |= compute_ends ? pixels : 0U;
-        plan.toon_output_flags |= plan.tonemap || facts.keep_radiance ? io::kOutputRadiance : 0U;
-    }
-    plan.tonemap_output_flags = plan.tone_output_flags | (plan.samples ? io::kOutputSamples : 0U);
+    placePixels(plan);
     return plan;
 }
 

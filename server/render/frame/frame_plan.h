@@ -1,46 +1,55 @@
-// Which passes a frame records, and as which variants: a pure function of what is asked for and of
-// what there is to draw. What is not planned is neither recorded nor allocated.
+// Which steps a frame has, and as which variants: a pure function of what is asked for and of what
+// there is to draw. What is not planned is neither recorded nor allocated.
 #pragma once
 
-#include "render/frame/effect_plan.h"
+#include "render/frame/step_plan.h"
 #include "render/pipelines/material_flags.h"
 #include "settings/settings.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace froxel::render {
 
+// How solid surfaces reach depth and G-buffer.
+enum class SolidGeometry : uint8_t {
+    kRaster,     // the rasteriser draws them
+    kIds,        // it draws ids of triangles, culled on the device, which compute resolves
+    kComputeIds, // likewise, and compute rasters the ids
+};
+
+// Where light lists are made.
+enum class ListPlace : uint8_t { kNowhere, kHost, kDevice };
+
 // What the frame has to work with.
 struct FrameFacts {
-    bool wide_gbuffer = false;        // SceneNeeds::wide_gbuffer
-    uint32_t emission_exponent = 0;   // SceneNeeds::emission_exponent
-    bool specular = false;            // SceneNeeds::specular
-    bool edges = false;               // SceneNeeds::edges
+    // Light flags (shaders/interface/constants.h) of what shines: kLightLocal where any light has
+    // a place, kLightSpots, kLightAreas, kLightShadows, kLightEqualRadii, kLightSmallScene,
+    // kLightLong, kLightDirectional; and of what is lit: kLightEdges (SceneNeeds::edges).
+    uint32_t lights = 0;
+    // Output flags of what the G-buffer must hold: kOutputWideGbuffer with its emission's exponent,
+    // kOutputSpecular (SceneNeeds).
+    uint32_t gbuffer = 0;
+    SolidGeometry geometry = SolidGeometry::kRaster;
+    ListPlace lists = ListPlace::kHost;
     bool layers_visible = false;      // solid surfaces with layers are drawn by the rasteriser
     bool transparent_visible = false; // blended surfaces are in view
     bool unlit_solid = false;         // SceneNeeds::unlit
-    bool local_lights = false;        // any light that has a place
-    bool spots = false;
-    bool areas = false;       // some of the spots are rectangles
-    bool shadows = false;     // some of them have shadow maps
-    bool equal_radii = false; // all local lights reach equally far
-    bool small_scene = false; // light::nearestDistance() is less than usual
-    bool long_loops = false;  // more iterations than a software rasteriser's loops may have
-    bool directional = false;
-    bool keep_radiance = false;    // the linear picture is asked for
-    bool all_lights = false;       // lists are not asked for
-    bool compute_batches = false;  // subgroups fetch lights together in compute
-    bool fragment_batches = false; // and in the fragment stage
-    bool culled_batches = false;   // and skip what adds nothing to any of their pixels
-    bool whole_groups = false;     // a workgroup takes as long where nothing covers its pixels
-    bool visibility = false;       // solid surfaces come from the visibility passes
-    bool compute_raster = false;   // and these raster in compute
-    bool cull_meshlets = true;
+    bool keep_radiance = false;       // the linear picture is asked for
+    bool compute_batches = false;     // subgroups fetch lights together in compute
+    bool fragment_batches = false;    // and in the fragment stage
+    bool culled_batches = false;      // and skip what adds nothing to any of their pixels
+    // A workgroup takes as long where nothing covers its pixels, and the host reads where the
+    // device writes.
+    bool software_device = false;
+    bool cull_meshlets = true;     // where ids are drawn
     bool prepass_pays = false;     // drawing depth first costs less than it spares
     bool overdraw_unknown = false; // the scene's was not measured yet
     bool bends = false;            // meshes follow joints or morph targets
     bool operator==(const FrameFacts&) const = default;
+
+    [[nodiscard]] bool hasLight(uint32_t flag) const { return (lights & flag) != 0; }
 };
 
 // For tests: what a frame is drawn as having, though it lacks it. Another variant and the same
@@ -57,61 +66,52 @@ struct GenericParts {
 };
 [[nodiscard]] FrameFacts generalised(FrameFacts facts, const GenericParts& parts);
 
-struct FramePlan {
-    bool pose = false;        // vertices that bend are posed, once for all passes
-    bool pose_reused = false; // the posed vertices of the previous frame are valid
-    bool depth_prepass = false;
-    bool count_samples = false;    // an occlusion query counts fragments that pass the depth test
-    bool forward = false;          // solid surfaces by the forward shader
-    bool gbuffer = false;          // else by geometry pass and lighting pass
-    bool visibility = false;       // solid surfaces by ids of triangles, culled on the device
-    bool compute_raster = false;   // ids are rasterised in compute
-    bool visibility_shade = false; // these are shaded at once, without a G-buffer
-    // Depth, ids and G-buffer of the previous frame are valid (SurfacesDrawn): no pass draws them.
-    bool reused = false;
-    bool spoil_scratch = false; // FrameInputs::spoil_scratch, of such a frame
-    bool cull_meshlets = true;
-    bool lighting_compute = false;
-    bool lighting_fragment = false;
-    bool layers = false; // surfaces with layers by the forward shader, over what lighting left
-    bool toon_pass = false;
-    bool toon_bands = false; // of that pass; light flags say it of what lights
-    bool outline = false;    // edges darkened, before anything is blended
-    bool transparent = false;
-    settings::Transparency transparency = settings::Transparency::kSorted; // where transparent
-    uint32_t peel_layers = 0; // at most; 0: nothing is peeled
-    bool over_unlit = false;  // what is blended may be before what has colours of the display
-    bool samples = false;     // four a pixel: everything is drawn at twice the sides
-    bool tonemap = false;     // a pass of its own
-    bool lists = false;       // lights are assigned to clusters
-    bool radiance = false;    // the radiance target exists
-    bool count_pairs = false;
-    settings::DebugView debug =
-        settings::DebugView::kNone; // its passes; settings::replacesPicture(): and no
-                                    // lighting
+// What becomes of solid surfaces.
+enum class Solid : uint8_t {
+    kForward,      // they are shaded as they are drawn, or from their ids
+    kDeferred,     // they fill a G-buffer, which is lit
+    kShownGbuffer, // a debug view shows a G-buffer in the picture's place
+    kShownDepth,   // or what needs depth alone
+    kOverdraw,     // or how often a pixel is drawn over
+};
 
-    std::vector<PlannedEffect> effects = {}; // in their order
+struct FramePlan {
+    Solid solid = Solid::kDeferred;
+    SolidGeometry geometry = SolidGeometry::kRaster;
+    settings::DebugView debug = settings::DebugView::kNone;
+    bool lists = false;             // lights are assigned to clusters
+    bool lights_in_compute = false; // solid surfaces' lights are added up there
+    bool count_samples = false;     // an occlusion query counts fragments that pass the depth test
+
+    std::vector<PlannedStep> steps = {}; // in their order
 
     uint32_t forward_light_flags = 0;
     uint32_t lighting_light_flags = 0;
-    uint32_t blended_output_flags = 0; // what effects ask of blended surfaces
+    uint32_t blended_output_flags = 0; // what earlier steps ask of blended surfaces
     uint32_t tone_output_flags = 0;    // how radiance becomes a colour of the display
     uint32_t gbuffer_output_flags = 0;
     // What the shading model, or the G-buffer, has no use for.
     MaterialFlags forward_unused_material_flags = 0;
     MaterialFlags gbuffer_unused_material_flags = 0;
-    uint32_t lighting_output_flags = 0;
-    uint32_t toon_output_flags = 0;
-    uint32_t tonemap_output_flags = 0;
     bool operator==(const FramePlan&) const = default;
 
-    // Whether it has any there.
-    [[nodiscard]] bool hasEffect(EffectPlace place) const;
-    // Whether what is blended is drawn into targets of its own.
-    [[nodiscard]] bool blendsApart() const {
-        return transparent && (over_unlit || transparency != settings::Transparency::kSorted);
-    }
+    // Null: the frame lacks it.
+    [[nodiscard]] const StepPlan* find(const StepRow& row) const;
+    // Whether a step that is recorded or reused uses it, from the `first`-th on.
+    [[nodiscard]] bool uses(Resource what, size_t first = 0) const;
+    // Steps whose results may outlast the frame write nothing but these: `written` of them are
+    // reused from now on.
+    void reuse(std::span<const Resource> written);
+    [[nodiscard]] bool byIds() const { return geometry != SolidGeometry::kRaster; }
 };
+
+// What of solid surfaces the next frame may reuse.
+inline constexpr std::array kSurfaceResources = {Resource::kDepth, Resource::kIds, Resource::kWords,
+                                                 Resource::kGbuffer};
+inline constexpr std::array kPoseResources = {Resource::kPosed};
+
+// Whether a step writes some of these, and nothing else.
+[[nodiscard]] bool writesOnly(std::span<const Use> uses, std::span<const Resource> these);
 
 // Whether surfaces are shaded as they are drawn, without a G-buffer.
 [[nodiscard]] bool isForward(settings::Renderer renderer);
@@ -123,12 +123,18 @@ struct FramePlan {
 // Whether surfaces with layers, for which the G-buffer has no room, are drawn over the lit ones.
 [[nodiscard]] bool drawsLayers(const settings::ViewSettings& settings, bool scene_layers);
 
-// Whether the plan has passes whose results the next frame may keep.
+// Whether the plan has steps whose surfaces the next frame may reuse.
 [[nodiscard]] bool leavesSurfaces(const FramePlan& plan);
+
+// Whether the plan's surfaces are those of the view's frame before.
+[[nodiscard]] bool reusesSurfaces(const FramePlan& plan);
 
 // What the settings' pictures are drawn at: twice the sides where pixels have four samples.
 [[nodiscard]] settings::Size drawnSize(const settings::ViewSettings& settings);
 
-[[nodiscard]] FramePlan planFrame(const settings::ViewSettings& settings, const FrameFacts& facts);
+// `rows`: all steps that there are, in the order of the frame.
+[[nodiscard]] FramePlan planFrame(const settings::ViewSettings& settings,
+                                  const FrameFacts& facts,
+                                  std::span<const StepRow* const> rows);
 
 } // namespace froxel::render

@@ -111,8 +111,7 @@ void FrameSlot::makeReadback(const gpu::Device& device, const ReadbackBytes& byt
 
 void FrameSlot::letGo(const ReadbackBytes& readback_bytes, vk::DeviceSize upload_bytes) {
     targets.reset();
-    effect_targets.clear();
-    blend.reset();
+    step_targets.clear();
     if (readback && readback->bytes != readback_bytes) {
         readback.reset(); // a lease keeps its own
     }
@@ -124,6 +123,12 @@ void FrameSlot::letGo(const ReadbackBytes& readback_bytes, vk::DeviceSize upload
 
 const gpu::Buffer& pixelsOf(const FrameSlot& slot) {
     return slot.targets->needs.device_pixels ? slot.targets->pixels : slot.readback->buffer;
+}
+
+const gpu::Buffer& packedPixels(const FrameSlot& slot, Resource what) {
+    return what == Resource::kDisplay    ? slot.targets->display[0]
+           : what == Resource::kDisplay2 ? slot.targets->display[1]
+                                         : pixelsOf(slot);
 }
 
 void writeFrameSet(const gpu::Device& device, FrameSlot& slot, const FrameBlocks& blocks) {

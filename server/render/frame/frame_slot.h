@@ -4,22 +4,17 @@
 
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
-#include "gpu/sample_counter.h"
 #include "gpu/timestamps.h"
-#include "render/frame/blend_targets.h"
-#include "render/frame/effect.h"
-#include "render/frame/effect_targets.h"
 #include "render/frame/frame_blocks.h"
 #include "render/frame/frame_inputs.h"
 #include "render/frame/frame_pieces.h"
+#include "render/frame/step.h"
+#include "render/frame/step_targets.h"
 #include "render/frame/view_targets.h"
 #include "render/lists/gpu_light_lists.h"
-#include "render/lists/pair_counter.h"
 #include "render/pipelines/pipelines.h"
 #include "render/pipelines/typed_store.h"
 #include "render/scene/material_set.h"
-#include "render/scene/mesh_poser.h"
-#include "render/scene/visibility_scene.h"
 
 #include <array>
 #include <atomic>
@@ -80,6 +75,16 @@ struct Readback {
     std::atomic<bool> leased{false};
 };
 
+// Offsets into the slot's upload buffer.
+struct UploadOffsets {
+    vk::DeviceSize rows = 0;
+    vk::DeviceSize commands = 0;
+    // Where ids are drawn: io::InstanceView of each instance, and in which order meshlets are
+    // drawn.
+    vk::DeviceSize instances = 0;
+    vk::DeviceSize meshlet_order = 0;
+};
+
 struct FrameSlot {
     FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, Pipelines& pipelines);
 
@@ -105,26 +110,17 @@ struct FrameSlot {
     gpu::Timestamps timestamps;
     FrameUpload upload;
     std::shared_ptr<ViewTargets> targets;
-    TypedStore stored; // objects of effects that belong to the slot
-    HeldTargets effect_targets;
-    std::vector<ActiveEffect> effects;    // of the frame last recorded
-    std::shared_ptr<PosedVertices> posed; // null: no mesh bends
-    std::unique_ptr<PoseSet> pose;        // likewise
-    std::shared_ptr<BlendTargets> blend;  // null: the frame last recorded has none
+    UploadOffsets offsets;
+    TypedStore stored; // objects of steps that belong to the slot
+    HeldTargets step_targets;
+    std::vector<ActiveStep> steps; // of the frame last recorded
     std::shared_ptr<Readback> readback;
     vk::raii::DescriptorPool pool;
     vk::raii::DescriptorSet frame_set{nullptr};
     vk::raii::DescriptorSet screen_set{nullptr};
     std::vector<vk::raii::BufferView> texel_views; // of the frame set's texel buffers
     std::shared_ptr<MaterialSet> material_set;     // of the frame last recorded
-    std::unique_ptr<VisibilityFrame> visibility;   // null: no frame asked for it yet
-    std::unique_ptr<PairCounter> pairs;            // likewise
-    bool counts_pairs = false;                     // in the frame last recorded
-    std::unique_ptr<gpu::SampleCounter> samples;   // likewise
-    bool counts_samples = false;                   // in the frame last recorded
-    std::unique_ptr<gpu::SampleCounter> overflow;  // likewise
-    bool counts_overflow = false;                  // of peeled layers, in the frame last recorded
-    std::unique_ptr<AssignSlot> assignment;        // likewise
+    std::unique_ptr<AssignSlot> assignment;        // null: no frame asked for it yet
     bool device_lists = false; // the frame last recorded had its lists made on the device
     bool stale = false;        // an older frame was drawn again after this one
     FrameInputs inputs;        // of that frame, to draw it again
@@ -139,6 +135,9 @@ struct FrameSlot {
 
 // Where the slot's finished pixels are read from or copied from.
 [[nodiscard]] const gpu::Buffer& pixelsOf(const FrameSlot& slot);
+
+// Packed pixels on their way to these: kDisplay, kDisplay2 or kPixels.
+[[nodiscard]] const gpu::Buffer& packedPixels(const FrameSlot& slot, Resource what);
 
 // Describes the blocks to all shaders of the frame; null buffers are the slot's upload, which was
 // committed. Throws vk::SystemError.

@@ -4,6 +4,7 @@
 #include "render/frame/frame_plan.h"
 #include "render/scene/scene_needs.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,9 @@ namespace froxel::render {
 [[nodiscard]] std::vector<std::string> sceneWords(const SceneNeeds& needs);
 
 // Of a frame: a pure function of what planFrame() took and gave.
-[[nodiscard]] std::vector<std::string>
-frameWords(const settings::ViewSettings& settings, const FrameFacts& facts, const FramePlan& plan);
-
-// What its effects say of that, in their order.
-[[nodiscard]] std::vector<std::string> effectWords(const settings::ViewSettings& settings,
-                                                   const FramePlan& plan);
+[[nodiscard]] std::vector<std::string> frameWords(const settings::ViewSettings& settings,
+                                                  const FrameFacts& facts,
+                                                  const FramePlan& plan,
+                                                  std::span<const StepRow* const> rows);
 
 } // namespace froxel::render

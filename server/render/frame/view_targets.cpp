@@ -65,10 +65,10 @@ ViewTargets::ViewTargets(const gpu::Device& device,
                                  gpu::MemoryUse::kDevice, "depth and id words");
     }
     const auto packed_bytes = packedBytes(shown);
-    if (needs.display) {
-        display = arena.makeBuffer(packed_bytes,
-                                   BufferUsage::eStorageBuffer | BufferUsage::eUniformTexelBuffer,
-                                   gpu::MemoryUse::kDevice, "display");
+    for (uint32_t i = 0; i < needs.display_count; ++i) {
+        display[i] = arena.makeBuffer(
+            packed_bytes, BufferUsage::eStorageBuffer | BufferUsage::eUniformTexelBuffer,
+            gpu::MemoryUse::kDevice, "display");
     }
     if (needs.device_pixels) {
         pixels =
@@ -77,20 +77,51 @@ ViewTargets::ViewTargets(const gpu::Device& device,
     }
 }
 
+namespace {
+
+void addUse(const Use& use, TargetNeeds& needs) {
+    switch (use.what) {
+    case Resource::kGbuffer:
+        needs.gbuffer = true;
+        break;
+    case Resource::kRadiance:
+        needs.radiance = true;
+        needs.sampled_radiance |=
+            static_cast<bool>(use.access & vk::AccessFlagBits2::eShaderSampledRead);
+        break;
+    case Resource::kIds:
+        needs.visibility = true;
+        break;
+    case Resource::kWords:
+        needs.compute_raster = true;
+        break;
+    case Resource::kDisplay:
+        needs.display_count = std::max(needs.display_count, 1U);
+        break;
+    case Resource::kDisplay2:
+        needs.display_count = 2;
+        break;
+    case Resource::kPixels:
+        needs.device_pixels |= static_cast<bool>(use.access & vk::AccessFlagBits2::eTransferRead);
+        break;
+    default: // a step's own, or always there
+        break;
+    }
+}
+
+} // namespace
+
 TargetNeeds targetNeeds(const FramePlan& plan,
-                        const gpu::Device& device,
                         const settings::Size& drawn,
                         const settings::Size& shown,
                         const ViewTargets* kept) {
-    TargetNeeds needs{.gbuffer = plan.gbuffer,
-                      .gbuffer_flags = plan.gbuffer_output_flags,
-                      .radiance = plan.radiance,
-                      .visibility = plan.visibility,
-                      .compute_raster = plan.compute_raster,
-                      .sampled_radiance = std::ranges::any_of(
-                          plan.effects, [](const auto& it) { return it.plan.samples_radiance; }),
-                      .display = plan.hasEffect(EffectPlace::kPixels),
-                      .device_pixels = !device.traits().is_cpu};
+    TargetNeeds needs;
+    for (const PlannedStep& step : plan.steps) {
+        for (const Use& use : step.uses(plan)) {
+            addUse(use, needs);
+        }
+    }
+    needs.gbuffer_flags = needs.gbuffer ? plan.gbuffer_output_flags : 0;
     if (kept == nullptr || kept->size != drawn || kept->shown != shown) {
         return needs;
     }

@@ -7,6 +7,7 @@
 #include "render/frame/frame_plan.h"
 #include "settings/settings.h"
 
+#include <array>
 #include <cstring>
 #include <optional>
 #include <vector>
@@ -21,15 +22,15 @@ struct TargetNeeds {
     bool visibility = false;
     bool compute_raster = false;   // what compute rasters into
     bool sampled_radiance = false; // passes look at a pixel's neighbours
-    bool display = false;          // the picture before the filter over it
+    uint32_t display_count = 0;    // of pictures before filters over them
     bool device_pixels = false;    // packed pixels are copied to the host rather than written there
 
     [[nodiscard]] bool covers(const TargetNeeds& other) const {
         const bool same_gbuffer = gbuffer && gbuffer_flags == other.gbuffer_flags;
         return (same_gbuffer || !other.gbuffer) && (radiance || !other.radiance) &&
                (visibility || !other.visibility) && (compute_raster || !other.compute_raster) &&
-               (sampled_radiance || !other.sampled_radiance) && display == other.display &&
-               (device_pixels || !other.device_pixels);
+               (sampled_radiance || !other.sampled_radiance) &&
+               display_count == other.display_count && (device_pixels || !other.device_pixels);
     }
     bool operator==(const TargetNeeds&) const = default;
 };
@@ -95,9 +96,10 @@ struct ViewTargets {
     gpu::Buffer words;        // depth and id, 64 bits a pixel; null handle: not needed
     gpu::Image compute_depth; // as depth, where compute rasters; null handle: not needed
     gpu::Image radiance;      // null handle: not needed
-    gpu::Buffer display;      // packed pixels that a filter follows; null handle: not needed
-    gpu::Buffer pixels;       // null handle: not needed
-    bool fresh = true;        // the images still await their first transition
+    // Packed pixels that filters read, in turn; null handles: not needed.
+    std::array<gpu::Buffer, 2> display;
+    gpu::Buffer pixels;                    // null handle: not needed
+    bool fresh = true;                     // the images still await their first transition
     bool rastered_in_compute = false;      // solid surfaces of the frame last submitted
     std::optional<SurfacesDrawn> surfaces; // that they hold once what is submitted has run
 
@@ -115,7 +117,6 @@ struct ViewTargets {
 // What a frame needs, and what targets of the same size (null: none) had besides: settings may go
 // to and fro.
 [[nodiscard]] TargetNeeds targetNeeds(const FramePlan& plan,
-                                      const gpu::Device& device,
                                       const settings::Size& drawn,
                                       const settings::Size& shown,
                                       const ViewTargets* kept);

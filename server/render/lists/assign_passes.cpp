@@ -1,5 +1,8 @@
 #include "render/lists/assign_passes.h"
 
+#include "render/pipelines/barrier.h"
+#include "render/pipelines/pass_names.h"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -32,9 +35,7 @@ uint32_t scanGroups(const AssignContext& assign) {
     return groups(assign.slot.frame().cluster_count, io::kAssignScanBlock);
 }
 
-} // namespace
-
-void recordAssignClear(const AssignContext& assign) {
+void clearLists(const AssignContext& assign) {
     const ListBuffers& buffers = assign.slot.buffers();
     io::AssignTotals totals{};
     totals.tasks = totals.short_lists = totals.long_lists = {.x = 0, .y = 1, .z = 1};
@@ -47,42 +48,85 @@ void recordAssignClear(const AssignContext& assign) {
                           assign.slot.frame().cluster_count * sizeof(uint32_t), 0);
 }
 
-void recordAssignLines(const AssignContext& assign) {
+void recordLines(const AssignContext& assign) {
     dispatch(assign, AssignPass::kLines, assign.slot.frame().grid_y * assign.slot.frame().grid_z);
 }
 
-void recordAssignBound(const AssignContext& assign) {
+void recordBound(const AssignContext& assign) {
     dispatch(assign, AssignPass::kBound, groups(assign.slot.frame().light_count, io::kAssignGroup));
 }
 
-void recordAssignCount(const AssignContext& assign) {
+void recordCount(const AssignContext& assign) {
     dispatchIndirect(assign, AssignPass::kCount, offsetof(io::AssignTotals, tasks));
 }
 
-void recordAssignSum(const AssignContext& assign) {
+void recordSum(const AssignContext& assign) {
     dispatch(assign, AssignPass::kSum, scanGroups(assign));
 }
 
-void recordAssignPlace(const AssignContext& assign) {
+void recordPlace(const AssignContext& assign) {
     dispatch(assign, AssignPass::kPlace, scanGroups(assign));
 }
 
-void recordAssignFill(const AssignContext& assign) {
+void recordFill(const AssignContext& assign) {
     dispatchIndirect(assign, AssignPass::kFill, offsetof(io::AssignTotals, tasks));
 }
 
-void recordAssignOrder(const AssignContext& assign) {
+void recordOrder(const AssignContext& assign) {
     dispatchIndirect(assign, AssignPass::kOrder, offsetof(io::AssignTotals, short_lists));
     dispatchIndirect(assign, AssignPass::kOrderLong, offsetof(io::AssignTotals, long_lists));
 }
 
-void recordAssignCopy(const AssignContext& assign) {
+void copyForHost(const AssignContext& assign) {
     const AssignSlot& slot = assign.slot;
     const auto& from = slot.inLines() ? slot.buffers().lists : slot.buffers().totals;
     const uint64_t bytes = slot.inLines()
                                ? slot.frame().cluster_count * sizeof(io::ClusterList)
                                : sizeof(io::AssignTotals) + slot.pricedTiles() * sizeof(uint32_t);
     assign.cmd.copyBuffer(*from.handle, slot.readback(), vk::BufferCopy{.size = bytes});
+}
+
+} // namespace
+
+void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) {
+    const auto& cmd = assign.cmd;
+    const auto finish = [&] {
+        // lists, indices, counters -> copy
+        barrier(cmd, vk::PipelineStageFlagBits2::eComputeShader,
+                vk::AccessFlagBits2::eShaderStorageWrite, vk::PipelineStageFlagBits2::eCopy,
+                vk::AccessFlagBits2::eTransferRead);
+        copyForHost(assign);
+    };
+    if (assign.slot.inLines()) {
+        const gpu::PassScope scope(timestamps, cmd, pass::kAssignLines);
+        recordLines(assign);
+        finish();
+        return;
+    }
+    {
+        const gpu::PassScope scope(timestamps, cmd, pass::kAssignCount);
+        clearLists(assign);
+        computeAfterTransfer(cmd);
+        recordBound(assign);
+        nextComputePass(cmd);
+        recordCount(assign);
+        nextComputePass(cmd);
+    }
+    {
+        const gpu::PassScope scope(timestamps, cmd, pass::kAssignScan);
+        recordSum(assign);
+        nextComputePass(cmd);
+        recordPlace(assign);
+        nextComputePass(cmd);
+    }
+    {
+        const gpu::PassScope scope(timestamps, cmd, pass::kAssignFill);
+        recordFill(assign);
+        nextComputePass(cmd);
+    }
+    const gpu::PassScope scope(timestamps, cmd, pass::kAssignOrder);
+    recordOrder(assign);
+    finish();
 }
 
 } // namespace froxel::render

@@ -7,6 +7,7 @@ namespace froxel::render {
 void LightGrid::choose(const settings::ViewSettings& settings,
                        const light::FrameLights& lights,
                        const BoundsD3& scene_bounds_world,
+                       cluster::Lit lit,
                        const cluster::GridCosts& costs) {
     lists_ = false;
     if (lights.lights.empty()) {
@@ -16,7 +17,7 @@ void LightGrid::choose(const settings::ViewSettings& settings,
     } else if (settings.light_loop == settings::LightLoop::kAllLights) {
         why_ = "looping over all lights was asked for";
     } else {
-        chooseGrid(settings, lights, scene_bounds_world, costs);
+        chooseGrid(settings, lights, scene_bounds_world, lit, costs);
         return;
     }
     frames_left_ = 0; // the last choice's reason is gone
@@ -25,10 +26,9 @@ void LightGrid::choose(const settings::ViewSettings& settings,
 void LightGrid::chooseGrid(const settings::ViewSettings& settings,
                            const light::FrameLights& lights,
                            const BoundsD3& scene_bounds_world,
+                           cluster::Lit lit,
                            const cluster::GridCosts& costs) {
-    range_ = cluster::litDepthRange(lights, settings.camera, scene_bounds_world,
-                                    settings.fog.scatters() ? cluster::Lit::kMedium
-                                                            : cluster::Lit::kSurfaces);
+    range_ = cluster::litDepthRange(lights, settings.camera, scene_bounds_world, lit);
     const Asked asked{settings.size,     settings.renderer, settings.grid, settings.light_loop,
                       settings.list_cap, settings.lights,   &costs};
     if (settings.list_cap >

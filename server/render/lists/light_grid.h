@@ -20,6 +20,7 @@ class LightGrid {
     void choose(const settings::ViewSettings& settings,
                 const light::FrameLights& lights,
                 const BoundsD3& scene_bounds_world,
+                cluster::Lit lit,
                 const cluster::GridCosts& costs);
 
     // Whether there are lists, and with them a grid.
@@ -49,6 +50,7 @@ class LightGrid {
     void chooseGrid(const settings::ViewSettings& settings,
                     const light::FrameLights& lights,
                     const BoundsD3& scene_bounds_world,
+                    cluster::Lit lit,
                     const cluster::GridCosts& costs);
     // From range_.
     void makeChoice(const settings::ViewSettings& settings,

@@ -20,4 +20,35 @@ inline void barrier(const vk::raii::CommandBuffer& cmd,
     cmd.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &memory});
 }
 
+// What compute passes so far stored -> loads, stores and indirect arguments of those that follow.
+inline void nextComputePass(const vk::raii::CommandBuffer& cmd) {
+    using Access = vk::AccessFlagBits2;
+    using Stage = vk::PipelineStageFlagBits2;
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
+            Stage::eComputeShader | Stage::eDrawIndirect,
+            Access::eShaderStorageRead | Access::eShaderSampledRead | Access::eShaderStorageWrite |
+                Access::eIndirectCommandRead);
+}
+
+// What was copied or cleared -> loads and stores of compute passes.
+inline void computeAfterTransfer(const vk::raii::CommandBuffer& cmd) {
+    using Access = vk::AccessFlagBits2;
+    using Stage = vk::PipelineStageFlagBits2;
+    barrier(cmd, Stage::eAllTransfer, Access::eTransferWrite, Stage::eComputeShader,
+            Access::eShaderStorageRead | Access::eShaderStorageWrite);
+}
+
+// What raster passes so far wrote and read -> tests, blending and loads of those that follow.
+inline void nextRasterPass(const vk::raii::CommandBuffer& cmd) {
+    using Access = vk::AccessFlagBits2;
+    using Stage = vk::PipelineStageFlagBits2;
+    constexpr vk::PipelineStageFlags2 kStages =
+        kDepthStages | Stage::eColorAttachmentOutput | Stage::eFragmentShader;
+    constexpr vk::AccessFlags2 kWrites =
+        Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite;
+    barrier(cmd, kStages, kWrites, kStages,
+            kWrites | Access::eDepthStencilAttachmentRead | Access::eColorAttachmentRead |
+                Access::eShaderSampledRead);
+}
+
 } // namespace froxel::render

@@ -23,8 +23,6 @@ constexpr std::array<std::string_view, 11> kGeometryNames = {
     "overdraw"};
 constexpr std::string_view kBlendResolveName = "blend resolve";
 constexpr std::string_view kBlendOverUnlitName = "blend over unlit";
-constexpr std::array<std::string_view, 4> kScreenNames = {"lighting", "toon", "outline", "tonemap"};
-constexpr std::string_view kFragmentLightingName = "lighting (fragment)";
 
 constexpr vk::ShaderStageFlags kAllStages = Stage::eVertex | Stage::eFragment | Stage::eCompute;
 
@@ -259,8 +257,7 @@ Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, V
           device, {*frame_layout_, *screen_set_layout_, *blend_set_layout_})),
       blend_resolve_(timeline, maker, settings::kTransparencyNames.size()),
       blend_over_unlit_(timeline, maker, 2 * settings::kToneMapNames.size()),
-      geometry_(timeline, maker, kKeptGeometry), screen_(timeline, maker, kKeptScreen),
-      fragment_lighting_(timeline, maker, kKeptScreen) {}
+      geometry_(timeline, maker, kKeptGeometry) {}
 
 vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& key) const {
     const bool masked = (key.material_flags & io::kMaterialMask) != 0;
@@ -291,47 +288,6 @@ bool Pipelines::prepareGeometry(GeometryPass pass, const VariantKey& key) {
     return geometry_.prepare(std::tuple(pass, key), [=, this] { return makeGeometry(pass, key); });
 }
 
-vk::Pipeline Pipelines::screen(ScreenPass pass, const VariantKey& key) {
-    return *screen_.findOrMake(std::tuple(pass, key), [=, this] {
-        const bool batched = (key.light_flags & io::kLightBatched) != 0;
-        switch (pass) {
-        case ScreenPass::kLighting:
-            return gpu::makeComputePipeline(
-                device_, batched ? shaders::lighting_batched_comp() : shaders::lighting_comp(),
-                constants(key), *screen_layout_, "lighting");
-        case ScreenPass::kToon:
-            return gpu::makeComputePipeline(device_, shaders::toon_comp(), constants(key),
-                                            *screen_layout_, "toon");
-        case ScreenPass::kOutline:
-            return gpu::makeComputePipeline(device_, shaders::outline_comp(), constants(key),
-                                            *screen_layout_, "outline");
-        case ScreenPass::kTonemap:
-            break;
-        }
-        return gpu::makeComputePipeline(device_, shaders::tonemap_comp(), constants(key),
-                                        *screen_layout_, "tonemap");
-    });
-}
-
-vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key, bool covered_alone) {
-    return *fragment_lighting_.findOrMake(std::tuple(covered_alone, key), [=, this] {
-        gpu::GraphicsPipelineInfo info;
-        info.vertex = shaders::fullscreen_vert();
-        info.fragment = (key.light_flags & io::kLightBatched) != 0
-                            ? shaders::lighting_batched_frag()
-                            : shaders::lighting_frag();
-        info.constants = constants(key);
-        info.layout = *screen_layout_;
-        info.color_formats = {kRadianceFormat};
-        if (covered_alone) { // it is drawn at the far end
-            info.depth_format = kDepthFormat;
-            info.depth_compare = vk::CompareOp::eLess;
-            info.depth_write = false;
-        }
-        return gpu::makeGraphicsPipeline(device_, info, kFragmentLightingName);
-    });
-}
-
 vk::Pipeline Pipelines::blendResolve(settings::Transparency transparency) {
     return *blend_resolve_.findOrMake(transparency, [=, this] {
         gpu::GraphicsPipelineInfo info;
@@ -360,12 +316,6 @@ std::vector<Pipelines::Made> Pipelines::made() const {
     std::vector<Made> all;
     geometry_.forEachKey([&](const auto& id) {
         all.push_back({kGeometryNames[static_cast<size_t>(std::get<0>(id))], std::get<1>(id)});
-    });
-    screen_.forEachKey([&](const auto& id) {
-        all.push_back({kScreenNames[static_cast<size_t>(std::get<0>(id))], std::get<1>(id)});
-    });
-    fragment_lighting_.forEachKey([&](const auto& id) {
-        all.push_back({kFragmentLightingName, std::get<1>(id)});
     });
     blend_resolve_.forEachKey([&](const auto& /*key*/) { all.push_back({kBlendResolveName, {}}); });
     blend_over_unlit_.forEachKey([&](const auto& id) {

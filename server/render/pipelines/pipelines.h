@@ -31,8 +31,6 @@ enum class GeometryPass : uint8_t {
     kOverdraw,          // counts fragments, writing depth
 };
 
-enum class ScreenPass : uint8_t { kLighting, kToon, kOutline, kTonemap };
-
 // Peeling passes tell triangles apart.
 [[nodiscard]] constexpr bool peels(GeometryPass pass) {
     return pass == GeometryPass::kPeelSelect || pass == GeometryPass::kPeelShade ||
@@ -112,12 +110,8 @@ class Pipelines {
     // The same where some of the picture is unlit, in compute.
     [[nodiscard]] vk::Pipeline blendOverUnlit(settings::Transparency transparency,
                                               uint32_t output_flags);
-    [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey& key);
-    // The lighting pass in the fragment stage; covered_alone: with the depth buffer attached, at
-    // whose empty pixels it does not run.
-    [[nodiscard]] vk::Pipeline fragmentLighting(const VariantKey& key, bool covered_alone);
 
-    // The variants kept, of every kind.
+    // The variants kept of these.
     struct Made {
         std::string_view pass;
         VariantKey key;
@@ -161,8 +155,6 @@ class Pipelines {
     VariantCache<settings::Transparency> blend_resolve_;
     VariantCache<std::tuple<bool, uint32_t>> blend_over_unlit_;
     VariantCache<std::tuple<GeometryPass, VariantKey>> geometry_;
-    VariantCache<std::tuple<ScreenPass, VariantKey>> screen_;
-    VariantCache<std::tuple<bool, VariantKey>> fragment_lighting_;
 };
 
 } // namespace froxel::render

@@ -19,20 +19,6 @@ DeviceResources::DeviceResources(gpu::Device& device_in, const MemoryLimits& lim
       pipelines(device_in, timeline, variants),
       unit_costs(device_in.traits().is_cpu ? kCpuUnitCosts : kGpuUnitCosts) {}
 
-DebugPass& DeviceResources::debug() {
-    if (!debug_) {
-        debug_ = std::make_unique<DebugPass>(device, timeline, variants, pipelines);
-    }
-    return *debug_;
-}
-
-PairPipelines& DeviceResources::pairs() {
-    if (!pairs_) {
-        pairs_ = std::make_unique<PairPipelines>(device, timeline, variants, pipelines);
-    }
-    return *pairs_;
-}
-
 VisibilityPipelines& DeviceResources::visibilityPipelines(uint32_t texture_count) {
     return visibility_pipelines_
         .try_emplace(texture_count, device, timeline, variants, pipelines, texture_count)
@@ -51,6 +37,9 @@ std::vector<Pipelines::Made> DeviceResources::variantsMade() const {
     auto all = pipelines.made();
     for (const auto& [texture_count, visibility] : visibility_pipelines_) {
         std::ranges::copy(visibility.made(), std::back_inserter(all));
+    }
+    for (const auto& list : variant_lists_) {
+        list(all);
     }
     return all;
 }

@@ -6,19 +6,19 @@
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
 #include "render/lists/assign_pipelines.h"
-#include "render/lists/pair_counter.h"
 #include "render/pipelines/pipelines.h"
 #include "render/pipelines/typed_store.h"
-#include "render/scene/debug_pass.h"
 #include "render/scene/memory_budget.h"
 #include "render/scene/pose_pipelines.h"
 #include "render/scene/unit_costs.h"
 #include "render/scene/visibility_pipelines.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace froxel::render {
@@ -47,17 +47,19 @@ class DeviceResources {
     [[nodiscard]] T& stored() {
         return stored_.findOrMake<T>(*this);
     }
-    // All made at the first call. Throw vk::SystemError.
-    [[nodiscard]] DebugPass& debug();
-    [[nodiscard]] PairPipelines& pairs();
+    // Made at the first call, likewise.
     // The highlights of rectangular lights: area_light_table::table().
     [[nodiscard]] const gpu::Buffer& ltcTable();
     // Where a shader reads so many textures at once; 0: where it reads one material's.
     [[nodiscard]] VisibilityPipelines& visibilityPipelines(uint32_t texture_count);
     // Any thread. Throws StartupError where the device binds too few buffers, too.
     [[nodiscard]] PosePipelines& posePipelines();
-    // The variants kept, of whatever draws surfaces and lights them.
+    // The variants kept, of whatever draws surfaces and of whoever called listVariants().
     [[nodiscard]] std::vector<Pipelines::Made> variantsMade() const;
+    // `list`, which adds variants, is called as long as this lives.
+    void listVariants(std::function<void(std::vector<Pipelines::Made>&)> list) {
+        variant_lists_.push_back(std::move(list));
+    }
 
   private:
     std::map<uint32_t, VisibilityPipelines> visibility_pipelines_; // by texture_count
@@ -65,8 +67,7 @@ class DeviceResources {
     std::unique_ptr<PosePipelines> pose_pipelines_;
     bool assignment_tried_ = false;
     std::unique_ptr<AssignPipelines> assignment_;
-    std::unique_ptr<DebugPass> debug_;
-    std::unique_ptr<PairPipelines> pairs_;
+    std::vector<std::function<void(std::vector<Pipelines::Made>&)>> variant_lists_;
     std::unique_ptr<gpu::MemoryArena> ltc_arena_;
     gpu::Buffer ltc_table_;
     TypedStore stored_;

@@ -60,7 +60,7 @@ struct UnitCosts {
     return unit;
 }
 
-// What an effect takes for one of a unit of its own.
+// What a step takes for one of a unit of its own.
 template <class Cost>
 struct Measured {
     Cost cpu;

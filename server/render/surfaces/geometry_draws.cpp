@@ -2,6 +2,7 @@
 
 #include "interface/constants.h"
 #include "interface/peel_io.h"
+#include "render/frame/posed_targets.h"
 
 #include <array>
 
@@ -13,7 +14,7 @@ void bindGeometry(const FrameContext& frame,
                   vk::Buffer indices,
                   vk::DeviceSize rows) {
     const auto& cmd = frame.slot.cmd;
-    const VertexBuffers vertices = vertexBuffers(frame.scene, frame.slot.posed.get());
+    const VertexBuffers vertices = vertexBuffers(frame.scene, frame.slot);
     const std::array buffers = {vertices.positions, vertices.surfaces,
                                 vertices.extended, // none: no pipeline reads it
                                 frame.slot.upload.buffer()};
@@ -61,7 +62,7 @@ VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup
 constexpr uint32_t kStride = sizeof(vk::DrawIndexedIndirectCommand);
 
 vk::DeviceSize commandOffset(const FrameContext& frame, uint32_t command) {
-    return frame.offsets.commands + vk::DeviceSize{command} * kStride;
+    return frame.slot.offsets.commands + vk::DeviceSize{command} * kStride;
 }
 
 // One by one, so that each tells its triangles' places; returns the next draw's.
@@ -110,7 +111,7 @@ void drawGroups(const FrameContext& frame,
     bindGeometry(frame, layout, *frame.slot.frame_set,
                  frame.draws.indices.empty() ? *frame.scene.index_buffer.handle
                                              : frame.slot.upload.buffer(),
-                 frame.offsets.rows);
+                 frame.slot.offsets.rows);
     vk::Pipeline bound;
     io::PeelDraw peel{.first_triangle = 0, .layer = layer};
     for (const DrawGroup& group : groups) {

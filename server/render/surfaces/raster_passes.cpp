@@ -1,6 +1,6 @@
 #include "render/surfaces/raster_passes.h"
 
-#include "render/frame/pass_names.h"
+#include "render/pipelines/pass_names.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/scene/compute_raster.h"
 #include "render/surfaces/visibility_binding.h"
@@ -17,11 +17,11 @@ const ComputeRaster& raster(const FrameContext& frame) {
     return frame.visibility->computeRaster();
 }
 
-using Step = VisibilityPipelines::ComputeStep;
+using RasterStep = VisibilityPipelines::ComputeStep;
 
 // What is opaque; then what is masked, with all textures or one material's at a time.
 template <class Dispatch>
-void drawMaterials(const FrameContext& frame, Step step, Dispatch dispatch) {
+void drawMaterials(const FrameContext& frame, RasterStep step, Dispatch dispatch) {
     const auto& scene = *frame.visibility;
     const auto draw = [&](vk::DescriptorSet textures, uint32_t material) {
         frame.slot.cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3,
@@ -69,29 +69,29 @@ void recordRasterSpoil(const FrameContext& frame) {
     }
 }
 
-void recordRasterCull(const FrameContext& frame) {
+void recordRasterCull(const FrameContext& frame, bool culls) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCull);
-    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(Step::kCullList));
-    pushVisibilityWords(frame, {frame.plan.cull_meshlets ? 0U : 1U,
-                                static_cast<uint32_t>(frame.visibility->groups.size())});
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(RasterStep::kCullList));
+    pushVisibilityWords(frame,
+                        {culls ? 0U : 1U, static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 
 void recordRasterMeshlets(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterMeshlets);
-    drawMaterials(frame, Step::kMeshlets,
+    drawMaterials(frame, RasterStep::kMeshlets,
                   [&] { frame.slot.cmd.dispatchIndirect(*raster(frame).counts.handle, 0); });
 }
 
 void recordRasterBlocks(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterBlocks);
-    drawMaterials(frame, Step::kBlocks,
+    drawMaterials(frame, RasterStep::kBlocks,
                   [&] { frame.slot.cmd.dispatch(io::kRasterBlockGroups, 1, 1); });
 }
 
 void recordRasterUnpack(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterUnpack);
-    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(Step::kUnpack));
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(RasterStep::kUnpack));
     const auto& size = frame.slot.targets->size;
     frame.slot.cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
 }

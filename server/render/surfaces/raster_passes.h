@@ -1,13 +1,14 @@
-// Triangle ids rastered in compute: what recordCompact and recordVisibility do elsewhere. As in
-// passes.h no barrier is here.
+// Triangle ids rastered in compute: what recordCompact and recordVisibility do elsewhere. No
+// barrier is here.
 #pragma once
 
 #include "render/frame/frame_context.h"
 
 namespace froxel::render {
 
-void recordRasterClear(const FrameContext& frame);    // clears words and counts
-void recordRasterCull(const FrameContext& frame);     // writes the list of visible meshlets
+void recordRasterClear(const FrameContext& frame); // clears words and counts
+// Writes the list of visible meshlets; culls: not of all.
+void recordRasterCull(const FrameContext& frame, bool culls);
 void recordRasterMeshlets(const FrameContext& frame); // reads that; writes words, large triangles
 void recordRasterBlocks(const FrameContext& frame);   // reads large triangles; writes words
 void recordRasterUnpack(const FrameContext& frame);   // reads words; writes depth and ids

@@ -4,6 +4,7 @@
 #include "gpu/memory.h"
 #include "render/frame/frame_context.h"
 
+#include <array>
 #include <span>
 
 namespace froxel::render {
@@ -22,6 +23,11 @@ attachment(const gpu::Image& image,
 // Reversed-Z: nothing is as far as 0.
 [[nodiscard]] inline vk::ClearValue farDepth() {
     return vk::ClearDepthStencilValue{.depth = 0.0F, .stencil = 0};
+}
+
+// Nothing, which covers nothing of the background.
+[[nodiscard]] inline vk::ClearValue nothing() {
+    return vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 0.0F});
 }
 
 // Open as long as it lives, with the frame's viewport, over a part of the picture.

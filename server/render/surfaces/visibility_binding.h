@@ -13,7 +13,7 @@ inline void bindVisibilityCompute(const FrameContext& frame, vk::Pipeline pipeli
     const auto& cmd = frame.slot.cmd;
     cmd.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
     const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
-                             frame.slot.visibility->set()};
+                             frame.slot.stored.get<VisibilityFrame>().set()};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
                            frame.visibility->pipelines.computeLayout(), 0, sets, {});
 }

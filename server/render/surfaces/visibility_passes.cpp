@@ -1,7 +1,8 @@
 #include "render/surfaces/visibility_passes.h"
 
 #include "interface/constants.h"
-#include "render/frame/pass_names.h"
+#include "render/frame/posed_targets.h"
+#include "render/pipelines/pass_names.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/surfaces/rendering_scope.h"
 #include "render/surfaces/visibility_binding.h"
@@ -16,7 +17,7 @@ using Point = vk::PipelineBindPoint;
 
 // Depths from compute are replaced by those of the triangles' planes.
 uint32_t depthFlag(const FrameContext& frame) {
-    return frame.plan.compute_raster ? io::kOutputDepth : 0U;
+    return frame.plan.geometry == SolidGeometry::kComputeIds ? io::kOutputDepth : 0U;
 }
 
 void shade(const FrameContext& frame,
@@ -27,10 +28,6 @@ void shade(const FrameContext& frame,
                                       3, textures, {});
     pushVisibilityWords(frame, words);
     dispatchOver(frame.slot.cmd, region);
-}
-
-uint32_t keptFlag(const FrameContext& frame) {
-    return frame.plan.reused ? io::kResolveReused : 0U;
 }
 
 // A pipeline over every pixel: once with all textures, or once for each material. find() gives it.
@@ -67,7 +64,7 @@ void resolve(const FrameContext& frame,
 void bindGeometry(const FrameContext& frame) {
     const auto& cmd = frame.slot.cmd;
     const auto& scene = frame.scene;
-    const VertexBuffers vertices = vertexBuffers(scene, frame.slot.posed.get());
+    const VertexBuffers vertices = vertexBuffers(scene, frame.slot);
     const std::array buffers = {vertices.positions, vertices.surfaces,
                                 vertices.extended ? vertices.extended : vertices.surfaces};
     const std::array<vk::DeviceSize, 3> offsets = {0, 0, 0};
@@ -75,7 +72,8 @@ void bindGeometry(const FrameContext& frame) {
     cmd.bindIndexBuffer(*scene.index_buffer.handle, 0, vk::IndexType::eUint32);
     const auto layout = frame.visibility->pipelines.rasterLayout();
     cmd.bindDescriptorSets(Point::eGraphics, layout, 0, *frame.slot.frame_set, {});
-    cmd.bindDescriptorSets(Point::eGraphics, layout, 2, frame.slot.visibility->set(), {});
+    cmd.bindDescriptorSets(Point::eGraphics, layout, 2,
+                           frame.slot.stored.get<VisibilityFrame>().set(), {});
 }
 
 void drawGroup(const FrameContext& frame, uint32_t index) {
@@ -107,11 +105,11 @@ void recordEmptyDraws(const FrameContext& frame) {
     frame.slot.cmd.fillBuffer(*frame.visibility->commands.handle, 0, VK_WHOLE_SIZE, 0);
 }
 
-void recordCull(const FrameContext& frame) {
+void recordCull(const FrameContext& frame, bool culls) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCull);
     bindVisibilityCompute(frame, frame.visibility->pipelines.cull());
-    pushVisibilityWords(frame, {frame.plan.cull_meshlets ? 0U : 1U,
-                                static_cast<uint32_t>(frame.visibility->groups.size())});
+    pushVisibilityWords(frame,
+                        {culls ? 0U : 1U, static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 
@@ -137,18 +135,21 @@ void recordVisibility(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordVisibilityGbuffer(const FrameContext& frame, const vk::Rect2D& region) {
-    resolve(frame, region, pass::kResolve, io::kResolveLast, keptFlag(frame), [&] {
+    resolve(frame, region, pass::kResolve, io::kResolveLast, 0, [&] {
         return frame.visibility->pipelines.gbuffer(
             {frame.visibility->material_flags, 0,
              frame.plan.gbuffer_output_flags | depthFlag(frame)});
     });
 }
 
-void recordVisibilityShade(const FrameContext& frame, const vk::Rect2D& region) {
-    resolve(frame, region, pass::kShade, io::kResolveLast, keptFlag(frame), [&] {
+void recordVisibilityShade(const FrameContext& frame,
+                           const vk::Rect2D& region,
+                           uint32_t output_flags) {
+    const uint32_t reused = reusesSurfaces(frame.plan) ? io::kResolveReused : 0U;
+    resolve(frame, region, pass::kShade, io::kResolveLast, reused, [&] {
         return frame.visibility->pipelines.shade(
             {frame.visibility->material_flags & ~frame.plan.forward_unused_material_flags,
-             frame.plan.lighting_light_flags, frame.plan.lighting_output_flags | depthFlag(frame)});
+             frame.plan.lighting_light_flags, output_flags | depthFlag(frame)});
     });
 }
 

@@ -1,4 +1,4 @@
-#include "render/effects/bloom_plan.h"
+#include "render/steps/bloom_plan.h"
 
 #include <gtest/gtest.h>
 

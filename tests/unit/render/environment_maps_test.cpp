@@ -1,4 +1,4 @@
-#include "render/effects/environment.h"
+#include "render/steps/environment.h"
 #include "settings/camera.h"
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-#include "render/effects/fog_plan.h"
+#include "render/steps/fog_plan.h"
 
 #include <gtest/gtest.h>
 

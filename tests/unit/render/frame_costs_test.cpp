@@ -1,8 +1,9 @@
 #include "render/frame/frame_costs.h"
+#include "render/frame/step.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <vector>
 
 namespace froxel::render {
 namespace {
@@ -11,19 +12,49 @@ cluster::ClusterGrid gridOf(const settings::GridSize& size, const settings::Size
     return cluster::makeClusterGrid({.size = size}, image, settings::Camera{}, 0.1, 100);
 }
 
-struct Load {
-    FramePlan plan{.gbuffer = true, .lighting_compute = true, .lists = true};
-    DrawList draws;
-    [[nodiscard]] CostInputs of(const PairBound& pairs) const {
-        return {
-            .plan = plan, .draws = draws, .drawn = {640, 360}, .shown = {640, 360}, .pairs = pairs};
+// A step of one pass, with a cost that the test gives it.
+class OnePass final : public Step {
+  public:
+    using Cost = RegionCost (*)(const FrameCosts& costs);
+
+    OnePass(const char* label, Cost cost, PairCost UnitCosts::*loops = nullptr)
+        : label_(label), cost_(cost), loops_(loops) {}
+
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
+        passes.push_back({label_, timeOver(cost_(costs), costs.load().drawn)});
     }
+    [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
+        return loops_ != nullptr ? costs.shadedLoop(costs.unit().*loops_) : 0;
+    }
+
+  private:
+    const char* label_;
+    Cost cost_;
+    PairCost UnitCosts::*loops_;
 };
 
-class OnePassEffect final : public Effect {
-  public:
-    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({"effect", timeOver(costs.screen(), costs.load().shown)});
+RegionCost lightingCost(const FrameCosts& costs) {
+    return costs.shading(costs.unit().compute);
+}
+
+OnePass lighting() {
+    return {"lighting", lightingCost, &UnitCosts::compute};
+}
+
+OnePass forward(OnePass::Cost cost) {
+    return {"forward", cost, &UnitCosts::fragment};
+}
+
+struct Load {
+    OnePass step = lighting();
+    std::vector<ActiveStep> steps = {{&step, false}};
+    DrawList draws;
+    [[nodiscard]] CostInputs of(const PairBound& pairs) const {
+        return {.draws = draws,
+                .drawn = {640, 360},
+                .shown = {640, 360},
+                .pairs = pairs,
+                .steps = steps};
     }
 };
 
@@ -78,22 +109,27 @@ TEST(FrameCosts, Forward_IsWhatItsPixelsAndTrianglesTake) {
     const UnitCosts& unit = kCpuUnitCosts;
     const double pixel = unit.surface_pixel + 10 * unit.fragment.pair + unit.lit_pixel;
     const double triangles = 5000 * unit.triangle;
-    const auto estimate = [&](const FramePlan& plan) {
-        load.plan = plan;
-        CostInputs forward = load.of(PairBound::uniform(10));
-        forward.overdraw = 3;
-        return FrameCosts(unit, forward).total().count();
+    const auto estimate = [&] {
+        return FrameCosts(unit, load.of(PairBound::uniform(10))).total().count();
     };
+    OnePass alone = forward([](const FrameCosts& costs) { return costs.shadedSurfaces(3); });
+    load.steps = {{&alone, false}};
     const double expected = 3 * 640 * 360 * pixel + triangles;
-    EXPECT_NEAR(estimate({.forward = true}), expected, 1e-9 * expected);
+    EXPECT_NEAR(estimate(), expected, 1e-9 * expected);
+    OnePass depth("depth", [](const FrameCosts& costs) { return costs.depth(); });
+    OnePass after = forward([](const FrameCosts& costs) { return costs.shadedSurfaces(1); });
+    load.steps = {{&depth, false}, {&after, false}};
     const double behind = 640 * 360 * (pixel + unit.depth_pixel) + triangles + triangles / 2;
-    EXPECT_NEAR(estimate({.depth_prepass = true, .forward = true}), behind, 1e-9 * behind);
+    EXPECT_NEAR(estimate(), behind, 1e-9 * behind);
+    load.steps[0].reused = true;
+    EXPECT_LT(estimate(), behind - 640 * 360 * unit.depth_pixel / 2);
 }
 
 // Lights are added up for a coat as for what is below it, where the forward shader adds them up.
 TEST(FrameCosts, Coats_LightForwardPixelsTwice) {
     Load load;
-    load.plan = {.forward = true};
+    OnePass shaded = forward([](const FrameCosts& costs) { return costs.shadedSurfaces(1); });
+    load.steps = {{&shaded, false}};
     CostInputs coated = load.of(PairBound::uniform(10));
     const auto estimate = [&] { return FrameCosts(kCpuUnitCosts, coated).total().count(); };
     const double once = estimate();
@@ -105,11 +141,6 @@ TEST(FrameCosts, Coats_LightForwardPixelsTwice) {
     coated.lit_surfaces = 1;
     EXPECT_NEAR(static_cast<double>(FrameCosts(kGpuUnitCosts, coated).lightsWithin(Seconds(1))),
                 2.0 * static_cast<double>(within), 2);
-    coated.lit_surfaces = 2;
-    load.plan = {.gbuffer = true, .lighting_compute = true};
-    const double lit = estimate();
-    load.plan.layers = true;
-    EXPECT_GT(estimate(), lit + 640 * 360 * 20 * unit.fragment.pair);
 }
 
 // On a GPU: few pixels are few pairs, and each takes its lights one after another.
@@ -138,9 +169,9 @@ TEST(FrameCosts, LongLoopOnACpu_IsLongerThanItsPixelsShareOfAllCores) {
     few.drawn = few.shown = {8, 8};
     few.longest_loop = 100'000;
     const FrameCosts costs(kCpuUnitCosts, few);
-    EXPECT_GT(costs.lighting().least, costs.lighting().of({{0, 0}, {8, 8}}));
-    EXPECT_FALSE(costs.check(Seconds(10), costs.lighting().least / 2));
-    EXPECT_TRUE(costs.check(Seconds(10), costs.lighting().least * 10));
+    EXPECT_GT(lightingCost(costs).least, lightingCost(costs).of({{0, 0}, {8, 8}}));
+    EXPECT_FALSE(costs.check(Seconds(10), lightingCost(costs).least / 2));
+    EXPECT_TRUE(costs.check(Seconds(10), lightingCost(costs).least * 10));
 }
 
 // Cutting a picture does not make one pixel's loop shorter.
@@ -149,47 +180,28 @@ TEST(FrameCosts, Loop_IsOfEveryPart) {
     CostInputs long_loop = load.of(PairBound::uniform(100'000));
     long_loop.longest_loop = 100'000;
     const FrameCosts costs(kGpuUnitCosts, long_loop);
-    const auto lighting = costs.lighting();
+    const auto lighting = lightingCost(costs);
     EXPECT_NEAR(lighting.least.count(), 100'000 * kGpuUnitCosts.compute.loop, 1e-9);
     const vk::Rect2D half{{0, 0}, {640, 180}};
     const vk::Rect2D whole{{0, 0}, {640, 360}};
     EXPECT_NEAR(lighting.of(whole).count(), 2 * lighting.of(half).count(), 1e-9);
 }
 
-TEST(FrameCosts, AllPasses_CountTogether) {
+TEST(FrameCosts, AllPasses_CountTogetherInTheirOrder) {
     const Load few;
     Load many;
-    many.plan.outline = many.plan.tonemap = true;
+    OnePass filter("filter", [](const FrameCosts& costs) { return costs.screen(); });
+    many.steps = {{&many.step, false}, {&filter, false}, {&filter, false}};
     const FrameCosts one(kCpuUnitCosts, few.of(PairBound::uniform(500)));
     const FrameCosts more(kCpuUnitCosts, many.of(PairBound::uniform(500)));
     EXPECT_GT(more.total(), one.total());
     EXPECT_TRUE(one.check(one.total(), Seconds(1)));
     EXPECT_FALSE(more.check(one.total(), Seconds(1)));
-}
-
-TEST(FrameCosts, PosedVertices_CountFirst) {
-    Load load;
-    load.plan.pose = true;
-    CostInputs posed = load.of({});
-    posed.posed_vertices = 1'000'000;
-    const auto passes = FrameCosts(kCpuUnitCosts, posed).passes();
-    EXPECT_STREQ(passes.front().pass, "pose");
-    EXPECT_NEAR(passes.front().time.count(), 1e6 * kCpuUnitCosts.posed_vertex, 1e-12);
-    EXPECT_STRNE(FrameCosts(kCpuUnitCosts, Load().of({})).passes().front().pass, "pose");
-}
-
-TEST(FrameCosts, Effects_CountInTheirOrder) {
-    Load load;
-    load.plan.tonemap = true;
-    OnePassEffect filter;
-    CostInputs with = load.of({});
-    const std::array effects = {ActiveEffect{EffectPlace::kPixels, &filter}};
-    with.effects = effects;
-    const auto passes = FrameCosts(kCpuUnitCosts, with).passes();
-    ASSERT_GE(passes.size(), 2U);
-    EXPECT_STREQ(passes[passes.size() - 2].pass, "tonemap");
-    EXPECT_STREQ(passes.back().pass, "effect");
-    EXPECT_EQ(passes.back().time, passes[passes.size() - 2].time);
+    const auto passes = more.passes();
+    ASSERT_EQ(passes.size(), 3U);
+    EXPECT_STREQ(passes[0].pass, "lighting");
+    EXPECT_STREQ(passes[1].pass, "filter");
+    EXPECT_EQ(passes[1].time, passes[2].time);
 }
 
 TEST(FrameCosts, PairsWithinALimit_FillIt) {
@@ -204,23 +216,21 @@ TEST(FrameCosts, PairsWithinALimit_FillIt) {
 // The same lines over a picture four times as wide and high take longer, and are cut smaller.
 TEST(FrameCosts, Lines_CountWhatTheyCover) {
     const Load load;
-    CostInputs lines = load.of({});
-    lines.wire_lines = 65'000;
-    lines.wire_px = 65'000 * 100.0;
-    const FrameCosts small(kCpuUnitCosts, lines);
-    lines.wire_px *= 16;
-    const FrameCosts large(kCpuUnitCosts, lines);
-    EXPECT_GT(large.wires(65'000), 10 * small.wires(65'000));
-    EXPECT_NEAR(large.wires(1).count() * 65'000, large.wires(65'000).count(), 1e-9);
+    const FrameCosts costs(kCpuUnitCosts, load.of({}));
+    EXPECT_GT(costs.lines(65'000, 1600), 10 * costs.lines(65'000, 100));
+    EXPECT_NEAR(costs.lines(1, 100).count() * 65'000, costs.lines(65'000, 100).count(), 1e-9);
 }
 
 // All passes that loop over lights share what there is.
 TEST(FrameCosts, PairsWithinALimit_CountEveryPass) {
     const Load lit;
-    Load counting;
-    counting.plan.count_pairs = true;
+    Load both;
+    OnePass counting(
+        "count", [](const FrameCosts& costs) { return costs.shading(costs.unit().counting); },
+        &UnitCosts::counting);
+    both.steps.push_back({&counting, false});
     const double alone = FrameCosts(kGpuUnitCosts, lit.of({})).pairsWithin(Seconds(0.05));
-    const double counted = FrameCosts(kGpuUnitCosts, counting.of({})).pairsWithin(Seconds(0.05));
+    const double counted = FrameCosts(kGpuUnitCosts, both.of({})).pairsWithin(Seconds(0.05));
     EXPECT_LT(counted, alone / 5);
 }
 

@@ -1,19 +1,16 @@
 #include "interface/constants.h"
 #include "interface/fog_io.h"
 #include "interface/gbuffer_io.h"
-#include "render/effects/background.h"
-#include "render/effects/bloom.h"
-#include "render/effects/environment.h"
-#include "render/effects/exposure.h"
-#include "render/effects/fog.h"
-#include "render/effects/fog_plan.h"
-#include "render/effects/fxaa.h"
-#include "render/effects/shadows.h"
 #include "render/frame/frame_plan.h"
+#include "render/steps/fog.h"
+#include "render/steps/fog_plan.h"
+#include "render/steps/order.h"
+#include "render/steps/shadows.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,85 +23,102 @@ namespace {
 using settings::LightingStage;
 using settings::Renderer;
 
+FramePlan planOf(const settings::ViewSettings& settings, const FrameFacts& facts) {
+    return planFrame(settings, facts, kOrder);
+}
+
 FramePlan
 plan(Renderer renderer, const FrameFacts& facts, LightingStage stage = LightingStage::kCompute) {
     settings::ViewSettings settings;
     settings.renderer = renderer;
     settings.lighting = stage;
-    return planFrame(settings, facts);
+    return planOf(settings, facts);
 }
 
-// Null: the frame lacks it.
-const EffectPlan* effectOf(const FramePlan& p, const EffectRow& row) {
-    const auto at =
-        std::ranges::find_if(p.effects, [&row](const auto& it) { return it.row == &row; });
-    return at != p.effects.end() ? &at->plan : nullptr;
+bool has(const FramePlan& p, const StepRow& row) {
+    return p.find(row) != nullptr;
+}
+
+// The step that packs pixels for the host; null: none.
+const PlannedStep* packer(const FramePlan& p) {
+    const auto at = std::ranges::find_if(
+        p.steps, [](const PlannedStep& step) { return step.plan.packs == Resource::kPixels; });
+    return at != p.steps.end() ? &*at : nullptr;
+}
+
+// Whether radiance of the frame is stored.
+bool storesRadiance(const FramePlan& p) {
+    return p.uses(Resource::kRadiance);
 }
 
 settings::BloomKind bloomOf(const FramePlan& p) {
-    const EffectPlan* bloom = effectOf(p, kBloomEffect);
+    const StepPlan* bloom = p.find(kBloomStep);
     return bloom != nullptr ? static_cast<settings::BloomKind>(bloom->way)
                             : settings::BloomKind::kNone;
 }
 
-constexpr FrameFacts kLit{.local_lights = true, .compute_batches = true};
+constexpr FrameFacts kLit{.lights = io::kLightLocal, .compute_batches = true};
 
 } // namespace
 
 TEST(FramePlan, Naive_WithLights_IsForwardWithoutListsOrPrepass) {
     const auto p = plan(Renderer::kNaive, kLit);
-    EXPECT_TRUE(p.forward);
-    EXPECT_FALSE(p.depth_prepass);
+    EXPECT_TRUE(has(p, kForwardStep));
+    EXPECT_FALSE(has(p, kDepthStep));
     EXPECT_FALSE(p.lists);
     EXPECT_EQ(p.forward_light_flags & io::kLightLists, 0U);
-    EXPECT_TRUE(p.tonemap);
+    EXPECT_TRUE(has(p, kTonemapStep));
 }
 
 TEST(FramePlan, ForwardPlus_WithLights_HasListsAndAPrepassThatPays) {
     FrameFacts facts = kLit;
-    EXPECT_FALSE(plan(Renderer::kForwardPlus, facts).depth_prepass);
+    EXPECT_FALSE(has(plan(Renderer::kForwardPlus, facts), kDepthStep));
     facts.prepass_pays = true;
     const auto p = plan(Renderer::kForwardPlus, facts);
-    EXPECT_TRUE(p.depth_prepass);
+    EXPECT_TRUE(has(p, kDepthStep));
     EXPECT_TRUE(p.lists);
     EXPECT_NE(p.forward_light_flags & io::kLightLists, 0U);
 }
 
 TEST(FramePlan, Deferred_NothingTransparent_EndsInTheLightingPass) {
     const auto p = plan(Renderer::kClusteredDeferred, kLit);
-    EXPECT_TRUE(p.lighting_compute);
-    EXPECT_FALSE(p.tonemap);
-    EXPECT_FALSE(p.radiance);
-    EXPECT_NE(p.lighting_output_flags & io::kOutputPixels, 0U);
-    EXPECT_EQ(p.lighting_output_flags & io::kOutputRadiance, 0U);
+    EXPECT_TRUE(p.lights_in_compute);
+    EXPECT_FALSE(has(p, kTonemapStep));
+    EXPECT_FALSE(storesRadiance(p));
+    ASSERT_NE(packer(p), nullptr);
+    EXPECT_EQ(packer(p)->row, &kLightingStep);
+    EXPECT_FALSE(packer(p)->plan.leaves_radiance);
 }
 
 TEST(FramePlan, Deferred_GlassInView_AddsBlendingAndToneMap) {
     FrameFacts facts = kLit;
     facts.transparent_visible = true;
     const auto p = plan(Renderer::kClusteredDeferred, facts);
-    EXPECT_TRUE(p.transparent);
-    EXPECT_TRUE(p.tonemap);
-    EXPECT_TRUE(p.radiance);
-    EXPECT_EQ(p.lighting_output_flags & io::kOutputPixels, 0U);
+    EXPECT_TRUE(has(p, kBlendedStep));
+    EXPECT_TRUE(storesRadiance(p));
+    ASSERT_NE(packer(p), nullptr);
+    EXPECT_EQ(packer(p)->row, &kTonemapStep);
 }
 
 TEST(FramePlan, Transparency_IsPlannedWhereSomethingIsBlended) {
     settings::ViewSettings settings;
     settings.transparency = settings::Transparency::kPeeled;
     settings.peel_layers = 6;
-    const auto usual = planFrame({}, kLit);
-    EXPECT_EQ(planFrame(settings, kLit), usual);
+    const auto usual = planOf({}, kLit);
+    EXPECT_EQ(planOf(settings, kLit), usual);
     FrameFacts facts = kLit;
     facts.transparent_visible = true;
-    EXPECT_EQ(planFrame(settings, facts).transparency, settings::Transparency::kPeeled);
-    EXPECT_EQ(planFrame(settings, facts).peel_layers, 6U);
+    const auto blended = [&] { return *planOf(settings, facts).find(kBlendedStep); };
+    const StepPlan peeled = blended();
+    EXPECT_EQ(peeled.count, 6U);
     settings.transparency = settings::Transparency::kWeighted;
-    EXPECT_EQ(planFrame(settings, facts).transparency, settings::Transparency::kWeighted);
-    EXPECT_EQ(planFrame(settings, facts).peel_layers, 0U);
+    const StepPlan weighted = blended();
+    EXPECT_NE(weighted.way, peeled.way);
+    EXPECT_EQ(weighted.count, 0U);
+    settings.transparency = settings::Transparency::kSorted;
+    EXPECT_NE(blended().way, weighted.way);
     settings.debug.view = settings::DebugView::kNormal; // shows no blended surface
-    EXPECT_FALSE(planFrame(settings, facts).transparent);
-    EXPECT_EQ(planFrame(settings, facts).transparency, settings::Transparency::kSorted);
+    EXPECT_FALSE(has(planOf(settings, facts), kBlendedStep));
 }
 
 TEST(FramePlan, NoLights_AnyRenderer_NeitherListsNorLightCode) {
@@ -122,6 +136,10 @@ bool has(uint64_t flags, uint64_t flag) {
     return (flags & flag) != 0;
 }
 
+bool has(const FrameFacts& facts, uint32_t light) {
+    return facts.hasLight(light);
+}
+
 // The first that does not hold; empty: all do.
 std::string_view firstBroken(std::span<const std::pair<bool, const char*>> rules) {
     for (const auto& [holds, rule] : rules) {
@@ -137,10 +155,11 @@ std::string_view brokenLayerRule(const settings::ViewSettings& settings,
                                  const FrameFacts& facts,
                                  const FramePlan& p) {
     const std::pair<bool, const char*> rules[] = {
-        {p.layers == (facts.layers_visible && p.gbuffer &&
-                      settings.shading != settings::ShadingModel::kLambert),
+        {has(p, kLayersStep) == (facts.layers_visible && p.solid == Solid::kDeferred &&
+                                 settings.shading != settings::ShadingModel::kLambert),
          "layers over a G-buffer's surfaces, where the model has any"},
-        {!p.layers || p.tonemap, "tones are mapped after layers"},
+        {!has(p, kLayersStep) || has(p, kTonemapStep) || has(p, kToonStep),
+         "tones are mapped after layers"},
         {has(p.gbuffer_unused_material_flags, kLayerFlags), "no layers in a G-buffer"},
         {has(p.forward_unused_material_flags, kLayerFlags) ==
              (settings.shading == settings::ShadingModel::kLambert),
@@ -153,93 +172,108 @@ std::string_view brokenLayerRule(const settings::ViewSettings& settings,
 std::string_view brokenPassRule(const settings::ViewSettings& settings,
                                 const FrameFacts& facts,
                                 const FramePlan& p) {
-    const bool compute_lights = p.lighting_compute || p.visibility_shade;
-    const bool lighting_packs = has(p.lighting_output_flags, io::kOutputPixels);
-    const bool toon_packs = has(p.toon_output_flags, io::kOutputPixels);
-    const bool lighting_stores = has(p.lighting_output_flags, io::kOutputRadiance);
-    const bool toon_stores = has(p.toon_output_flags, io::kOutputRadiance);
+    const bool forward = has(p, kForwardStep);
+    const bool gbuffer = has(p, kGbufferStep);
+    const bool depth = has(p, kDepthStep);
+    const bool local = has(facts, io::kLightLocal);
+    const auto packs = std::ranges::count_if(
+        p.steps, [](const PlannedStep& step) { return step.plan.packs == Resource::kPixels; });
+    const StepRow* packs_row = packer(p) != nullptr ? packer(p)->row : nullptr;
+    // The radiance of the step that packs, behind the last one that changes it.
+    const bool read_later = facts.keep_radiance;
     const std::pair<bool, const char*> rules[] = {
-        {p.forward + p.gbuffer + p.visibility_shade == 1, "solid surfaces are shaded in one way"},
-        {p.gbuffer == (p.lighting_compute || p.lighting_fragment), "a G-buffer is lit"},
-        {!(p.lighting_compute && p.lighting_fragment), "in one stage"},
-        {!p.lighting_fragment || settings.lighting == LightingStage::kFragment ||
-             (settings.lighting == LightingStage::kAuto && facts.whole_groups &&
-              !facts.local_lights &&
+        {forward != gbuffer, "solid surfaces are shaded in one way"},
+        {gbuffer == has(p, kLightingStep), "a G-buffer is lit"},
+        {!gbuffer || p.lights_in_compute || settings.lighting == LightingStage::kFragment ||
+             (settings.lighting == LightingStage::kAuto && facts.software_device && !local &&
               settings.environment.light != settings::EnvironmentLight::kOff),
          "the fragment stage lights a G-buffer where asked to, or from around alone"},
-        {!p.depth_prepass || (facts.prepass_pays && (p.forward || (p.gbuffer && !p.visibility))),
+        {!depth || (facts.prepass_pays && !p.byIds()),
          "depth is rastered first only where that pays and the rasteriser shades"},
-        {!p.depth_prepass || settings.renderer != Renderer::kNaive, "naive has no prepass"},
-        {p.count_samples == (facts.overdraw_unknown && !p.visibility),
+        {!depth || settings.renderer != Renderer::kNaive, "naive has no prepass"},
+        {p.count_samples == (facts.overdraw_unknown && !p.byIds()),
          "samples are counted until the overdraw is known"},
-        {!p.visibility_shade || (p.visibility && isForward(settings.renderer)),
-         "only forward renderers shade from ids"},
-        {p.visibility == facts.visibility, "ids are drawn where they can be"},
-        {p.compute_raster == (facts.visibility && facts.compute_raster),
+        {forward == isForward(settings.renderer), "forward renderers shade at once"},
+        {has(p, kIdsStep) == (facts.geometry != SolidGeometry::kRaster),
+         "ids are drawn where they can be"},
+        {p.uses(Resource::kWords) == (facts.geometry == SolidGeometry::kComputeIds),
          "in compute where that was chosen"},
-        {p.toon_pass == (settings.renderer == Renderer::kToonCompute), "toon_compute has its pass"},
-        {p.transparent == facts.transparent_visible, "blending only where something is blended"},
-        {p.tonemap + lighting_packs + toon_packs == 1, "exactly one pass packs pixels"},
-        {!p.transparent || p.tonemap, "tones are mapped after blending"},
-        {p.tonemap || compute_lights || p.toon_pass, "only compute passes map tones on the way"},
-        {p.tonemap || !p.toon_pass || toon_packs, "the toon pass is the last"},
-        {p.radiance == (p.tonemap || p.toon_pass || facts.keep_radiance),
+        {has(p, kToonStep) == (settings.renderer == Renderer::kToonCompute),
+         "toon_compute has its pass"},
+        {has(p, kBlendedStep) == facts.transparent_visible,
+         "blending only where something is blended"},
+        {packs == 1, "exactly one pass packs pixels for the host"},
+        {!has(p, kBlendedStep) || has(p, kTonemapStep), "tones are mapped after blending"},
+        {has(p, kTonemapStep) || p.lights_in_compute || has(p, kToonStep),
+         "only compute passes map tones on the way"},
+        {has(p, kTonemapStep) || !has(p, kToonStep) || packs_row == &kToonStep || has(p, kFxaaStep),
+         "the toon pass is the last"},
+        {storesRadiance(p) == (has(p, kTonemapStep) || has(p, kToonStep) || facts.keep_radiance),
          "the radiance target is there if somebody reads it"},
-        {p.radiance || (!lighting_stores && !toon_stores), "nothing is stored for nobody"},
-        {lighting_stores == (p.radiance && compute_lights), "whoever reads radiance finds it"},
-        {toon_stores == (p.toon_pass && (p.tonemap || facts.keep_radiance)),
-         "and finds what the toon pass made of it"},
-        {!p.lists || (facts.local_lights && !facts.all_lights), "lists only of local lights"},
-        {!p.lists || settings.renderer != Renderer::kNaive, "naive has no lists"},
-        {p.count_pairs == (settings.count_pairs && facts.local_lights),
-         "pairs are counted where asked and there are any"},
-        {p.gbuffer || p.gbuffer_output_flags == 0, "no layout without a G-buffer"},
-        {!p.gbuffer || has(p.gbuffer_output_flags, io::kOutputWideGbuffer) == facts.wide_gbuffer,
-         "wide if the scene needs it"},
-        {has(p.gbuffer_output_flags, io::kOutputSpecular) ==
-             (p.gbuffer && facts.specular && !isForward(settings.renderer) &&
-              settings.shading != settings::ShadingModel::kLambert),
-         "what dielectrics reflect where it is shown"},
-        {has(p.lighting_light_flags, io::kLightEdges) ==
-             (facts.edges && settings.shading != settings::ShadingModel::kLambert),
-         "edges where one reflects less than all"},
-        {!p.gbuffer || (p.lighting_output_flags & p.gbuffer_output_flags) == p.gbuffer_output_flags,
-         "lighting reads the layout that was written"},
+        {has(p, kTonemapStep) || packer(p)->plan.filters ||
+             packer(p)->plan.leaves_radiance == read_later,
+         "whoever packs stores radiance for whoever reads it"},
     };
     return firstBroken(rules);
 }
 
-// The same of its effects.
+// Of its lists and its G-buffer.
+std::string_view brokenStoreRule(const settings::ViewSettings& settings,
+                                 const FrameFacts& facts,
+                                 const FramePlan& p) {
+    const bool gbuffer = has(p, kGbufferStep);
+    const bool local = has(facts, io::kLightLocal);
+    const std::pair<bool, const char*> rules[] = {
+        {!p.lists || (local && facts.lists != ListPlace::kNowhere), "lists only of local lights"},
+        {!p.lists || settings.renderer != Renderer::kNaive, "naive has no lists"},
+        {has(p, kPairsStep) == (settings.count_pairs && local),
+         "pairs are counted where asked and there are any"},
+        {gbuffer || p.gbuffer_output_flags == 0, "no layout without a G-buffer"},
+        {!gbuffer || has(p.gbuffer_output_flags, io::kOutputWideGbuffer) ==
+                         has(facts.gbuffer, io::kOutputWideGbuffer),
+         "wide if the scene needs it"},
+        {has(p.gbuffer_output_flags, io::kOutputSpecular) ==
+             (gbuffer && has(facts.gbuffer, io::kOutputSpecular) && !isForward(settings.renderer) &&
+              settings.shading != settings::ShadingModel::kLambert),
+         "what dielectrics reflect where it is shown"},
+        {has(p.lighting_light_flags, io::kLightEdges) ==
+             (has(facts, io::kLightEdges) && settings.shading != settings::ShadingModel::kLambert),
+         "edges where one reflects less than all"},
+    };
+    return firstBroken(rules);
+}
+
+// The same of what effects it has.
 std::string_view brokenEffectRule(const settings::ViewSettings& settings,
                                   const FrameFacts& facts,
                                   const FramePlan& p) {
     const bool is_toon = isToon(settings.renderer);
-    const EffectPlan* shadows = effectOf(p, kShadowsEffect);
-    const EffectPlan* fog = effectOf(p, kFogEffect);
+    const bool local = has(facts, io::kLightLocal);
+    const StepPlan* shadows = p.find(kShadowsStep);
+    const StepPlan* fog = p.find(kFogStep);
+    const StepPlan* tonemap = p.find(kTonemapStep);
     const uint32_t fog_way = fog != nullptr ? fog->way : 0;
+    const bool samples = settings.antialiasing == settings::Antialiasing::kSsaa4;
     const std::pair<bool, const char*> rules[] = {
-        {has(p.tonemap_output_flags, io::kOutputClamp) ==
+        {has(p.tone_output_flags, io::kOutputClamp) ==
              (settings.tone_map == settings::ToneMap::kClamp),
          "the tone map asked for"},
-        {p.outline == (is_toon && settings.toon_outline.strength > 0),
+        {has(p, kOutlineStep) == (is_toon && settings.toon_outline.strength > 0),
          "outlines where a toon renderer is asked for them"},
-        {p.toon_bands == (p.toon_pass && settings.toon.bands > 0), "the colour's bands"},
+        {!has(p, kToonStep) || (p.find(kToonStep)->way != 0) == (settings.toon.bands > 0),
+         "the colour's bands"},
         {bloomOf(p) == settings.bloom.kind, "the bloom asked for"},
-        {(effectOf(p, kExposureEffect) != nullptr) ==
-             (settings.exposure_mode == settings::ExposureMode::kFrame),
+        {has(p, kExposureStep) == (settings.exposure_mode == settings::ExposureMode::kFrame),
          "exposure is metered where asked for"},
         {has(shadows != nullptr ? shadows->way : 0, kShadowsDrawn) ==
-             (facts.shadows && facts.local_lights),
+             (has(facts, io::kLightShadows) && local),
          "maps of lights that have them"},
-        {p.samples == (settings.antialiasing == settings::Antialiasing::kSsaa4),
-         "four samples where asked for"},
-        {p.samples == has(p.tonemap_output_flags, io::kOutputSamples),
-         "which the tone map averages"},
-        {(effectOf(p, kFxaaEffect) != nullptr) ==
-             (settings.antialiasing == settings::Antialiasing::kFxaa),
+        {!samples || tonemap != nullptr, "four samples have a tone map"},
+        {tonemap == nullptr || samples == (tonemap->way != 0), "which averages them"},
+        {has(p, kFxaaStep) == (settings.antialiasing == settings::Antialiasing::kFxaa),
          "the filter asked for"},
         {(fog != nullptr) == settings.fog.present(), "fog where there is a medium"},
-        {has(fog_way, kFogVolume) == (settings.fog.scatters() && facts.local_lights),
+        {has(fog_way, kFogVolume) == (settings.fog.scatters() && local),
          "a volume where it scatters lights"},
         {has(fog_way, kFogNoise) == (has(fog_way, kFogVolume) && settings.fog.noise),
          "jittered where asked for"},
@@ -249,8 +283,7 @@ std::string_view brokenEffectRule(const settings::ViewSettings& settings,
         {has(fogLightFlags(p.forward_light_flags), io::kLightLists) == p.lists, "the same lists"},
         {(fogLightFlags(p.forward_light_flags) & ~p.lighting_light_flags) == 0,
          "lights as surfaces have them"},
-        {p.tonemap || fog == nullptr, "tones are mapped after fog"},
-        {p.tonemap || !(p.outline || p.samples || p.hasEffect(EffectPlace::kPicture)),
+        {tonemap != nullptr || !(fog != nullptr || has(p, kOutlineStep) || has(p, kBloomStep)),
          "tones are mapped after all effects on the linear picture"},
     };
     return firstBroken(rules);
@@ -269,17 +302,21 @@ std::string_view brokenLightRule(const settings::ViewSettings& settings,
                               io::kLightPartial | io::kLightEqualRadii | io::kLightCulled |
                               io::kLightLong | io::kLightShadows | io::kLightSmallScene | laws;
     const std::pair<bool, const char*> rules[] = {
-        {local == facts.local_lights, "local light code if there are any"},
+        {local == has(facts, io::kLightLocal), "local light code if there are any"},
         {local || (flags & of_local) == 0, "nothing of local lights without one"},
-        {has(flags, io::kLightDirectional) == facts.directional, "suns if there are any"},
+        {has(flags, io::kLightDirectional) == has(facts, io::kLightDirectional),
+         "suns if there are any"},
         {lists == p.lists, "lists are read if they are made"},
-        {has(flags, io::kLightSpots) == (local && facts.spots), "cones if there are spots"},
-        {has(flags, io::kLightAreas) == (local && facts.areas), "rectangles if there are any"},
-        {has(flags, io::kLightShadows) == (facts.shadows && facts.local_lights),
+        {has(flags, io::kLightSpots) == (local && has(facts, io::kLightSpots)),
+         "cones if there are spots"},
+        {has(flags, io::kLightAreas) == (local && has(facts, io::kLightAreas)),
+         "rectangles if there are any"},
+        {has(flags, io::kLightShadows) ==
+             (has(facts, io::kLightShadows) && has(facts, io::kLightLocal)),
          "maps are read if they are drawn"},
-        {has(flags, io::kLightSmallScene) == (local && facts.small_scene),
+        {has(flags, io::kLightSmallScene) == (local && has(facts, io::kLightSmallScene)),
          "a floor of the scene's own if it is small"},
-        {has(flags, io::kLightEqualRadii) == (local && facts.equal_radii),
+        {has(flags, io::kLightEqualRadii) == (local && has(facts, io::kLightEqualRadii)),
          "a constant radius if there is one"},
         {lists || (flags & laws) == 0, "no slices without lists"},
         {(flags & laws) != laws, "one slice law"},
@@ -306,16 +343,15 @@ std::string_view brokenLightRule(const settings::ViewSettings& settings,
 std::string_view
 brokenRule(const settings::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
     for (const std::string_view broken :
-         {brokenPassRule(settings, facts, p), brokenLayerRule(settings, facts, p),
-          brokenEffectRule(settings, facts, p),
+         {brokenPassRule(settings, facts, p), brokenStoreRule(settings, facts, p),
+          brokenLayerRule(settings, facts, p), brokenEffectRule(settings, facts, p),
           brokenLightRule(settings, facts, p, p.forward_light_flags),
           brokenLightRule(settings, facts, p, p.lighting_light_flags)}) {
         if (!broken.empty()) {
             return broken;
         }
     }
-    const bool in_compute = p.lighting_compute || p.visibility_shade;
-    if (in_compute && has(p.lighting_light_flags, io::kLightPartial)) {
+    if (p.lights_in_compute && has(p.lighting_light_flags, io::kLightPartial)) {
         return "whole subgroups in compute";
     }
     return {};
@@ -323,10 +359,11 @@ brokenRule(const settings::ViewSettings& settings, const FrameFacts& facts, cons
 
 } // namespace
 
-// The key of a frame is a pure function: every combination of settings that it looks at and of
-// facts, by the rules above.
-TEST(FramePlan, EveryCombination_KeepsTheRules) {
+// The key of a frame is a pure function: every combination of settings that it looks at, and every
+// combination of facts with some of these, by the rules above.
+TEST(FramePlan, Combinations_KeepTheRules) {
     constexpr uint32_t kFacts = 15;
+    constexpr uint32_t kStride = 61; // all of them would be 18 million frames
     settings::ViewSettings settings;
     for (uint32_t setting = 0; setting < 5 * 3 * 3 * 2 * 3 * 2; ++setting) {
         uint32_t rest = setting;
@@ -342,34 +379,33 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
         settings.tone_map = static_cast<settings::ToneMap>(next(2));
         settings.grid.law = static_cast<settings::GridLaw>(next(3));
         settings.count_pairs = next(2) != 0;
-        for (uint32_t bits = 0; bits < (1U << kFacts); ++bits) {
+        for (uint32_t bits = setting % kStride; bits < (1U << kFacts); bits += kStride) {
             const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
-            const FrameFacts facts{.wide_gbuffer = has(0),
-                                   .specular = has(1) != has(7),
-                                   .edges = has(4) != has(14),
-                                   .layers_visible = has(8) != has(2),
-                                   .transparent_visible = has(1),
-                                   .local_lights = has(2),
-                                   .spots = has(3),
-                                   .areas = has(3) && has(0),
-                                   .equal_radii = has(4),
-                                   .small_scene = has(6),
-                                   .long_loops = has(5),
-                                   .directional = has(6),
-                                   .keep_radiance = has(7),
-                                   .all_lights = has(8),
-                                   .compute_batches = has(9),
-                                   .fragment_batches = has(10),
-                                   .culled_batches = has(11),
-                                   .visibility = has(12),
-                                   .compute_raster = !has(13),
-                                   .cull_meshlets = has(13),
-                                   .prepass_pays = has(14),
-                                   .overdraw_unknown = has(14) != has(0)};
-            const auto p = planFrame(settings, facts);
-            ASSERT_EQ(brokenRule(settings, facts, p), "")
+            const auto light = [&](bool there, uint32_t flag) { return there ? flag : 0U; };
+            const FrameFacts facts{
+                .lights = light(has(2), io::kLightLocal) | light(has(3), io::kLightSpots) |
+                          light(has(3) && has(0), io::kLightAreas) |
+                          light(has(4), io::kLightEqualRadii) |
+                          light(has(6), io::kLightSmallScene) | light(has(5), io::kLightLong) |
+                          light(has(6), io::kLightDirectional) |
+                          light(has(4) != has(14), io::kLightEdges),
+                .gbuffer = light(has(0), io::kOutputWideGbuffer) |
+                           light(has(1) != has(7), io::kOutputSpecular),
+                .geometry = !has(12)   ? SolidGeometry::kRaster
+                            : !has(13) ? SolidGeometry::kComputeIds
+                                       : SolidGeometry::kIds,
+                .lists = has(8) ? ListPlace::kNowhere : ListPlace::kHost,
+                .layers_visible = has(8) != has(2),
+                .transparent_visible = has(1),
+                .keep_radiance = has(7),
+                .compute_batches = has(9),
+                .fragment_batches = has(10),
+                .culled_batches = has(11),
+                .cull_meshlets = has(13),
+                .prepass_pays = has(14),
+                .overdraw_unknown = has(14) != has(0)};
+            ASSERT_EQ(brokenRule(settings, facts, planOf(settings, facts)), "")
                 << "settings " << setting << ", facts " << bits;
-            ASSERT_EQ(p, planFrame(settings, facts));
         }
     }
 }
@@ -392,15 +428,15 @@ TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
         settings.toon.rim = setting / 15 % 2 != 0 ? 0.5F : 0.0F;
         for (uint32_t bits = 0; bits < 128; ++bits) {
             const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
-            const FrameFacts facts{.transparent_visible = has(0),
-                                   .local_lights = has(1),
-                                   .shadows = has(4),
-                                   .keep_radiance = has(2),
-                                   .whole_groups = has(6),
-                                   .visibility = has(3)};
+            const FrameFacts facts{
+                .lights = (has(1) ? io::kLightLocal : 0U) | (has(4) ? io::kLightShadows : 0U),
+                .geometry = has(3) ? SolidGeometry::kIds : SolidGeometry::kRaster,
+                .transparent_visible = has(0),
+                .keep_radiance = has(2),
+                .software_device = has(6)};
             settings.environment.light =
                 has(5) ? settings::EnvironmentLight::kStudio : settings::EnvironmentLight::kOff;
-            ASSERT_EQ(brokenRule(settings, facts, planFrame(settings, facts)), "")
+            ASSERT_EQ(brokenRule(settings, facts, planOf(settings, facts)), "")
                 << "settings " << setting << ", facts " << bits;
         }
     }
@@ -411,17 +447,17 @@ TEST(FramePlan, MeshesThatBend_ArePosedInEveryFrame) {
     for (const auto debug : {settings::DebugView::kNone, settings::DebugView::kDepth,
                              settings::DebugView::kOverdraw}) {
         settings.debug.view = debug;
-        EXPECT_TRUE(planFrame(settings, {.bends = true}).pose);
-        EXPECT_FALSE(planFrame(settings, {}).pose);
+        EXPECT_TRUE(has(planOf(settings, {.bends = true}), kPoseStep));
+        EXPECT_FALSE(has(planOf(settings, {}), kPoseStep));
     }
 }
 
 TEST(FramePlan, FogOfNoDensity_IsNotThere) {
     settings::ViewSettings settings;
-    const FrameFacts facts{.local_lights = true, .directional = true};
-    const FramePlan without = planFrame(settings, facts);
+    const FrameFacts facts{.lights = io::kLightLocal | io::kLightDirectional};
+    const FramePlan without = planOf(settings, facts);
     settings.fog = {.density = 0, .height_falloff = 1, .half_rate = true, .noise = true};
-    EXPECT_EQ(planFrame(settings, facts), without);
+    EXPECT_EQ(planOf(settings, facts), without);
 }
 
 TEST(FramePlan, Environment_IsAFlagOfWhatLightsSurfacesAndNoPass) {
@@ -429,84 +465,90 @@ TEST(FramePlan, Environment_IsAFlagOfWhatLightsSurfacesAndNoPass) {
     for (uint8_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
         settings = {};
         settings.renderer = static_cast<Renderer>(kind);
-        const FramePlan off = planFrame(settings, kLit);
+        const FramePlan off = planOf(settings, kLit);
         settings.environment.strength = 2;
-        EXPECT_EQ(planFrame(settings, kLit), off);
+        EXPECT_EQ(planOf(settings, kLit), off);
         settings.environment.light = settings::EnvironmentLight::kStudio;
-        FramePlan studio = planFrame(settings, kLit);
+        FramePlan studio = planOf(settings, kLit);
         EXPECT_EQ(studio.forward_light_flags, off.forward_light_flags | io::kLightEnvironment);
         EXPECT_EQ(studio.lighting_light_flags, off.lighting_light_flags | io::kLightEnvironment);
-        EXPECT_NE(effectOf(studio, kEnvironmentEffect), nullptr);
-        studio.effects = off.effects;
+        EXPECT_TRUE(has(studio, kEnvironmentStep));
+        std::erase_if(studio.steps, [](const auto& it) { return it.row == &kEnvironmentStep; });
+        for (PlannedStep& step : studio.steps) {
+            step.plan.light_flags = 0;
+        }
         studio.forward_light_flags = off.forward_light_flags;
         studio.lighting_light_flags = off.lighting_light_flags;
         EXPECT_EQ(studio, off);
     }
     settings.renderer = Renderer::kClusteredDeferred;
     settings.debug.view = settings::DebugView::kBaseColor;
-    EXPECT_EQ(effectOf(planFrame(settings, kLit), kEnvironmentEffect), nullptr);
+    EXPECT_FALSE(has(planOf(settings, kLit), kEnvironmentStep));
 }
 
 // Empty pixels cost a software device nothing there.
 TEST(FramePlan, LightFromAroundAlone_OnASoftwareDevice_IsInTheFragmentStage) {
     settings::ViewSettings settings;
     settings.environment.light = settings::EnvironmentLight::kStudio;
-    FrameFacts facts{.compute_batches = true, .whole_groups = true};
-    EXPECT_TRUE(planFrame(settings, facts).lighting_fragment);
-    facts.local_lights = true;
-    EXPECT_TRUE(planFrame(settings, facts).lighting_compute);
+    FrameFacts facts{.compute_batches = true, .software_device = true};
+    const auto in_compute = [&] { return planOf(settings, facts).lights_in_compute; };
+    EXPECT_FALSE(in_compute());
+    facts.lights = io::kLightLocal;
+    EXPECT_TRUE(in_compute());
     facts = {.compute_batches = true};
-    EXPECT_TRUE(planFrame(settings, facts).lighting_compute);
-    facts.whole_groups = true;
+    EXPECT_TRUE(in_compute());
+    facts.software_device = true;
     settings.lighting = LightingStage::kCompute;
-    EXPECT_TRUE(planFrame(settings, facts).lighting_compute);
+    EXPECT_TRUE(in_compute());
     settings.lighting = LightingStage::kAuto;
     settings.environment.light = settings::EnvironmentLight::kOff;
-    EXPECT_TRUE(planFrame(settings, facts).lighting_compute);
+    EXPECT_TRUE(in_compute());
 }
 
 TEST(FramePlan, Background_IsThereWithAnEnvironment) {
     settings::ViewSettings settings;
     settings.environment.background = true;
-    EXPECT_EQ(effectOf(planFrame(settings, kLit), kBackgroundEffect), nullptr);
+    EXPECT_FALSE(has(planOf(settings, kLit), kBackgroundStep));
     settings.environment.light = settings::EnvironmentLight::kStudio;
-    const FramePlan shown = planFrame(settings, kLit);
-    EXPECT_NE(effectOf(shown, kBackgroundEffect), nullptr);
-    EXPECT_TRUE(shown.radiance && shown.tonemap);
+    const FramePlan shown = planOf(settings, kLit);
+    EXPECT_TRUE(has(shown, kBackgroundStep));
+    EXPECT_TRUE(storesRadiance(shown) && has(shown, kTonemapStep));
     settings.debug.view = settings::DebugView::kBaseColor;
-    EXPECT_EQ(effectOf(planFrame(settings, kLit), kBackgroundEffect), nullptr);
+    EXPECT_FALSE(has(planOf(settings, kLit), kBackgroundStep));
 }
 
 TEST(FramePlan, BloomOfNoStrength_IsNone) {
     settings::ViewSettings settings;
     settings.bloom.kind = settings::BloomKind::kSeparable;
     settings.bloom.strength = 0;
-    EXPECT_EQ(bloomOf(planFrame(settings, {})), settings::BloomKind::kNone);
+    EXPECT_EQ(bloomOf(planOf(settings, {})), settings::BloomKind::kNone);
 }
 
 // A fixed exposure leaves the frame as it is; a metered one needs the linear picture, and a debug
 // view has none.
 TEST(FramePlan, MeteredExposure_AsksForRadianceAndAToneMap) {
     settings::ViewSettings settings;
-    const FramePlan fixed = planFrame(settings, kLit);
+    const FramePlan fixed = planOf(settings, kLit);
     settings.exposure = 8;
-    EXPECT_EQ(planFrame(settings, kLit), fixed);
+    EXPECT_EQ(planOf(settings, kLit), fixed);
     settings.exposure_mode = settings::ExposureMode::kFrame;
-    const FramePlan metered = planFrame(settings, kLit);
-    EXPECT_TRUE(metered.tonemap && metered.radiance);
-    EXPECT_EQ(metered.tonemap_output_flags, planFrame({}, {}).tonemap_output_flags);
+    const FramePlan metered = planOf(settings, kLit);
+    EXPECT_TRUE(has(metered, kTonemapStep) && storesRadiance(metered));
+    EXPECT_EQ(metered.tone_output_flags, fixed.tone_output_flags);
     settings.debug.view = settings::DebugView::kDepth;
-    EXPECT_TRUE(planFrame(settings, kLit).effects.empty());
+    EXPECT_FALSE(has(planOf(settings, kLit), kExposureStep));
 }
 
 TEST(FramePlan, Exposure_IsMeteredBeforeBloom) {
     settings::ViewSettings settings;
     settings.exposure_mode = settings::ExposureMode::kFrame;
     settings.bloom.kind = settings::BloomKind::kMipChain;
-    const auto plan = planFrame(settings, kLit);
-    ASSERT_EQ(plan.effects.size(), 2U);
-    EXPECT_EQ(plan.effects[0].row, &kExposureEffect);
-    EXPECT_EQ(plan.effects[1].row, &kBloomEffect);
+    const auto plan = planOf(settings, kLit);
+    const auto at = [&](const StepRow& row) {
+        return std::ranges::find(plan.steps, &row, &PlannedStep::row);
+    };
+    ASSERT_NE(at(kBloomStep), plan.steps.end());
+    EXPECT_LT(at(kExposureStep), at(kBloomStep));
 }
 
 TEST(FramePlan, DrawnSize_IsTwiceTheSidesForFourSamples) {
@@ -518,16 +560,17 @@ TEST(FramePlan, DrawnSize_IsTwiceTheSidesForFourSamples) {
 }
 
 TEST(FramePlan, GenericParts_OnlyWiden) {
-    const FrameFacts bare{.local_lights = true, .equal_radii = true, .compute_batches = true};
+    const FrameFacts bare{.lights = io::kLightLocal | io::kLightEqualRadii,
+                          .compute_batches = true};
     EXPECT_EQ(generalised(bare, {}), bare);
     const auto wide = generalised(bare, {.spots = true,
                                          .directional = true,
                                          .wide_gbuffer = true,
                                          .transparent = true,
                                          .uneven_radii = true});
-    EXPECT_TRUE(wide.spots && wide.directional && wide.wide_gbuffer && wide.transparent_visible);
-    EXPECT_FALSE(wide.equal_radii);
-    EXPECT_FALSE(generalised({}, {.spots = true}).spots); // no light to have a cone
+    EXPECT_EQ(wide.lights, io::kLightLocal | io::kLightSpots | io::kLightDirectional);
+    EXPECT_TRUE(has(wide.gbuffer, io::kOutputWideGbuffer) && wide.transparent_visible);
+    EXPECT_EQ(generalised({}, {.spots = true}).lights, 0U); // no light to have a cone
 }
 
 TEST(FramePlan, DebugViews_InThePicturesPlace_DrawSurfacesAndNoLight) {
@@ -536,33 +579,79 @@ TEST(FramePlan, DebugViews_InThePicturesPlace_DrawSurfacesAndNoLight) {
     facts.transparent_visible = true;
     settings.renderer = Renderer::kForwardPlus;
     settings.debug.view = settings::DebugView::kListedLights;
-    const auto lists = planFrame(settings, facts);
-    EXPECT_TRUE(lists.depth_prepass);
+    const auto lists = planOf(settings, facts);
+    EXPECT_TRUE(has(lists, kDepthStep));
     EXPECT_TRUE(lists.lists);
-    EXPECT_FALSE(lists.forward || lists.gbuffer || lists.transparent || lists.tonemap ||
-                 lists.radiance);
+    EXPECT_FALSE(has(lists, kForwardStep) || has(lists, kGbufferStep) || has(lists, kBlendedStep) ||
+                 has(lists, kTonemapStep) || storesRadiance(lists));
     settings.debug.view = settings::DebugView::kNormal;
-    const auto normal = planFrame(settings, facts);
-    EXPECT_TRUE(normal.gbuffer);
-    EXPECT_FALSE(normal.lighting_compute || normal.lighting_fragment || normal.lists);
+    const auto normal = planOf(settings, facts);
+    EXPECT_TRUE(has(normal, kGbufferStep));
+    EXPECT_FALSE(has(normal, kLightingStep) || normal.lists);
     settings.renderer = Renderer::kToonCompute;
     settings.debug.view = settings::DebugView::kOverdraw;
-    const auto overdraw = planFrame(settings, facts);
-    EXPECT_TRUE(overdraw.radiance);
-    EXPECT_FALSE(overdraw.gbuffer || overdraw.depth_prepass || overdraw.toon_pass);
+    const auto overdraw = planOf(settings, facts);
+    EXPECT_TRUE(storesRadiance(overdraw));
+    EXPECT_FALSE(has(overdraw, kGbufferStep) || has(overdraw, kDepthStep) ||
+                 has(overdraw, kToonStep));
     settings.renderer = Renderer::kNaive;
     settings.debug.view = settings::DebugView::kEvaluatedLights;
-    EXPECT_FALSE(planFrame(settings, facts).lists); // it loops over all
+    EXPECT_FALSE(planOf(settings, facts).lists); // it loops over all
 }
 
 TEST(FramePlan, DebugViews_OverThePicture_AddRadianceAndAToneMap) {
     settings::ViewSettings settings;
     settings.lighting = LightingStage::kCompute;
     settings.debug.view = settings::DebugView::kLightSpheres;
-    const auto p = planFrame(settings, kLit);
-    EXPECT_TRUE(p.lighting_compute && p.radiance && p.tonemap);
+    const auto p = planOf(settings, kLit);
+    EXPECT_TRUE(p.lights_in_compute && storesRadiance(p) && has(p, kTonemapStep));
     settings.debug.view = settings::DebugView::kNone;
-    EXPECT_FALSE(planFrame(settings, kLit).tonemap);
+    EXPECT_FALSE(has(planOf(settings, kLit), kTonemapStep));
+}
+
+// A second filter reads what the first one packed.
+TEST(FramePlan, SeveralFilters_FollowEachOther) {
+    settings::ViewSettings settings;
+    settings.antialiasing = settings::Antialiasing::kFxaa;
+    const std::array rows = {&kIdsStep,  &kDepthStep, &kGbufferStep, &kLightingStep,
+                             &kFxaaStep, &kFxaaStep,  &kFxaaStep};
+    const FramePlan p = planFrame(settings, kLit, rows);
+    ASSERT_GE(p.steps.size(), 4U);
+    const auto last = p.steps.end();
+    EXPECT_EQ(last[-4].row, &kLightingStep);
+    EXPECT_EQ(last[-4].plan.packs, Resource::kDisplay);
+    EXPECT_EQ(last[-3].plan.packed, Resource::kDisplay);
+    EXPECT_EQ(last[-3].plan.packs, Resource::kDisplay2);
+    EXPECT_EQ(last[-2].plan.packed, Resource::kDisplay2);
+    EXPECT_EQ(last[-2].plan.packs, Resource::kDisplay);
+    EXPECT_EQ(last[-1].plan.packed, Resource::kDisplay);
+    EXPECT_EQ(last[-1].plan.packs, Resource::kPixels);
+}
+
+TEST(FramePlan, ReusedSurfaces_AreThoseOfStepsThatDrawNothingElse) {
+    FrameFacts facts = kLit;
+    facts.prepass_pays = true;
+    for (const auto geometry :
+         {SolidGeometry::kRaster, SolidGeometry::kIds, SolidGeometry::kComputeIds}) {
+        facts.geometry = geometry;
+        for (const auto renderer : {Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
+            FramePlan p = plan(renderer, facts);
+            EXPECT_TRUE(leavesSurfaces(p));
+            EXPECT_FALSE(reusesSurfaces(p));
+            p.reuse(kSurfaceResources);
+            EXPECT_TRUE(reusesSurfaces(p));
+            for (const PlannedStep& step : p.steps) {
+                const bool draws =
+                    step.row == &kIdsStep || step.row == &kDepthStep || step.row == &kGbufferStep;
+                EXPECT_EQ(step.reused, draws) << step.row->name;
+            }
+        }
+    }
+    facts.geometry = SolidGeometry::kRaster;
+    facts.prepass_pays = false;
+    EXPECT_FALSE(leavesSurfaces(plan(Renderer::kForwardPlus, facts)));
+    facts.overdraw_unknown = true; // what is counted must be drawn
+    EXPECT_FALSE(leavesSurfaces(plan(Renderer::kClusteredDeferred, facts)));
 }
 
 } // namespace froxel::render

@@ -1,5 +1,8 @@
+#include "interface/constants.h"
+#include "interface/gbuffer_io.h"
 #include "render/frame/plan_words.h"
 #include "render/memory_report.h"
+#include "render/steps/order.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +18,7 @@ using ::testing::Not;
 using ::testing::SizeIs;
 
 std::vector<std::string> wordsOf(const settings::ViewSettings& settings, const FrameFacts& facts) {
-    return frameWords(settings, facts, planFrame(settings, facts));
+    return frameWords(settings, facts, planFrame(settings, facts, kOrder), kOrder);
 }
 
 scene::Scene sceneOf(uint32_t materials, uint32_t with_normal_maps) {
@@ -40,7 +43,7 @@ TEST(PlanWords, NoLights_SayWhatIsSaved) {
 TEST(PlanWords, IorAndSpecular_AreNamedWhereTheyAreStored) {
     settings::ViewSettings settings;
     settings.renderer = settings::Renderer::kClusteredDeferred;
-    const FrameFacts facts{.specular = true, .edges = true};
+    const FrameFacts facts{.lights = io::kLightEdges, .gbuffer = io::kOutputSpecular};
     EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("ior, specular or glossiness")));
     EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("G-buffer of 12 bytes")));
     EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("specular strength below 1")));
@@ -66,7 +69,7 @@ TEST(PlanWords, MeshesThatBend_AreNamed) {
 }
 
 TEST(PlanWords, LightsOfOneRadius_AreNamed) {
-    const auto words = wordsOf({}, {.local_lights = true, .equal_radii = true});
+    const auto words = wordsOf({}, {.lights = io::kLightLocal | io::kLightEqualRadii});
     EXPECT_THAT(words, Contains("all radii equal: radius is a constant"));
     EXPECT_THAT(words, Contains("no spot light: no cone data"));
     EXPECT_THAT(words, Contains(HasSubstr("light lists")));
@@ -96,7 +99,7 @@ TEST(PlanWords, WorkOnTheLitPicture_IsNamedWhereItIs) {
 
 TEST(PlanWords, Toon_SaysWhatHasBandsAndWhetherThereIsARim) {
     settings::ViewSettings settings;
-    const FrameFacts facts{.local_lights = true};
+    const FrameFacts facts{.lights = io::kLightLocal};
     EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("toon"))));
     settings.renderer = settings::Renderer::kToonFragment;
     EXPECT_THAT(wordsOf(settings, facts), Contains("3 toon bands of each light"));
@@ -124,7 +127,7 @@ TEST(PlanWords, Fog_SaysWhetherLightsAreScattered) {
     settings::ViewSettings settings;
     settings.fog.density = 0.1F;
     EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("no froxel volume")));
-    const auto words = wordsOf(settings, {.local_lights = true});
+    const auto words = wordsOf(settings, {.lights = io::kLightLocal});
     EXPECT_THAT(words, Contains(HasSubstr("in a froxel volume")));
     EXPECT_THAT(words,
                 Contains("tone mapping in a separate pass, after the passes over the lit picture"));
@@ -133,8 +136,9 @@ TEST(PlanWords, Fog_SaysWhetherLightsAreScattered) {
 TEST(PlanWords, ShadowMaps_AreNamedWhereTheyAreDrawn) {
     settings::ViewSettings settings;
     settings.shadows = {8, 128};
-    EXPECT_THAT(wordsOf(settings, {.local_lights = true}), Not(Contains(HasSubstr("shadow maps"))));
-    EXPECT_THAT(wordsOf(settings, {.local_lights = true, .shadows = true}),
+    EXPECT_THAT(wordsOf(settings, {.lights = io::kLightLocal}),
+                Not(Contains(HasSubstr("shadow maps"))));
+    EXPECT_THAT(wordsOf(settings, {.lights = io::kLightLocal | io::kLightShadows}),
                 Contains("shadow maps: up to 8 lights, faces of 128 pixels a side"));
 }
 
@@ -173,7 +177,7 @@ TEST(FrameDetails, OnlyAChange_MakesAnotherObject) {
     const SceneNeeds needs;
     FrameFacts facts;
     const auto update = [&] {
-        return keeper.update({}, facts, planFrame({}, facts), needs, ledger, nullptr);
+        return keeper.update({}, facts, planFrame({}, facts, kOrder), needs, ledger, nullptr);
     };
     const auto first = update();
     EXPECT_EQ(first, update());

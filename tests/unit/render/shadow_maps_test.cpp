@@ -1,5 +1,5 @@
 // The mathematics of shadow maps: faces, their culling and the bias of lib/shadow.glsl.
-#include "render/effects/shadow_maps.h"
+#include "render/steps/shadow_maps.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,45 @@
+#include "render/frame/record.h"
+
+#include "render/frame/fresh_targets.h"
+#include "render/frame/step.h"
+#include "render/pipelines/host_copies.h"
+
+namespace froxel::render {
+
+namespace {
+
+// For tests: what a frame that reuses surfaces must not read is overwritten.
+void recordSpoil(const FrameContext& frame) {
+    if (const auto& words = frame.slot.targets->words; *words.handle) {
+        frame.slot.cmd.fillBuffer(*words.handle, 0, VK_WHOLE_SIZE, 0xa5a5a5a5);
+        barrier(frame.slot.cmd, vk::PipelineStageFlagBits2::eAllTransfer,
+                vk::AccessFlagBits2::eTransferWrite, vk::PipelineStageFlagBits2::eAllCommands,
+                vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite);
+    }
+}
+
+} // namespace
+
+void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_share) {
+    FrameSlot& slot = frame.slot;
+    frame.pieces.begin(piece_limit, piece_share);
+    slot.timestamps.reset();
+    recordFreshTargets(slot);
+    if (frame.spoil_scratch) {
+        recordSpoil(frame);
+    }
+    UseTracker tracker;
+    for (size_t i = 0; i < frame.steps.size(); ++i) {
+        if (frame.steps[i].reused) {
+            continue;
+        }
+        if (const auto wait = tracker.before(frame.plan.steps[i].uses(frame.plan))) {
+            barrier(slot.cmd, wait->from, wait->written, wait->to, wait->used);
+        }
+        frame.steps[i].step->record(frame);
+    }
+    recordHostRead(slot.cmd);
+    frame.pieces.end();
+}
+
+} // namespace froxel::render

@@ -1,0 +1,158 @@
+// Counts light-pixel pairs on the device, for frames that ask for it.
+#include "embedded.h"
+#include "gpu/pipeline.h"
+#include "interface/pairs_io.h"
+#include "render/frame/frame_context.h"
+#include "render/frame/step.h"
+#include "render/lists/counting_flags.h"
+#include "render/pipelines/barrier.h"
+#include "render/pipelines/pass_names.h"
+#include "render/pipelines/screen_groups.h"
+#include "render/steps/order.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+
+namespace froxel::render {
+
+namespace {
+
+vk::raii::DescriptorSetLayout pairSetLayout(const gpu::Device& device) {
+    const std::array bindings = {vk::DescriptorSetLayoutBinding{
+        0, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute}};
+    return gpu::makeSetLayout(device, bindings);
+}
+
+vk::raii::DescriptorPool makePairPool(const gpu::Device& device) {
+    const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer, 1};
+    return gpu::makeDescriptorPool(device, std::array{size});
+}
+
+uint64_t join(uint32_t low, uint32_t high) {
+    return uint64_t{high} << 32U | low;
+}
+
+// Shared by every view.
+class PairPipelines {
+  public:
+    explicit PairPipelines(DeviceResources& shared)
+        : device_(shared.device), set_layout_(pairSetLayout(device_)),
+          layout_(gpu::makePipelineLayout(
+              device_,
+              {shared.pipelines.frameLayout(), shared.pipelines.screenLayout(), *set_layout_})),
+          made_(shared.timeline, shared.variants, Pipelines::kKeptScreen) {}
+
+    [[nodiscard]] vk::Pipeline find(uint32_t light_flags) {
+        const uint32_t flags = countingFlags(light_flags, device_.traits().is_cpu);
+        return *made_.findOrMake(flags, [=, this] {
+            return gpu::makeComputePipeline(
+                device_, shaders::count_pairs_comp(),
+                {0, flags, 0, std::max(1U, device_.traits().subgroup_size)}, *layout_,
+                "count pairs");
+        });
+    }
+    [[nodiscard]] vk::DescriptorSetLayout setLayout() const { return *set_layout_; }
+    [[nodiscard]] vk::PipelineLayout layout() const { return *layout_; }
+
+  private:
+    const gpu::Device& device_;
+    vk::raii::DescriptorSetLayout set_layout_;
+    vk::raii::PipelineLayout layout_;
+    VariantCache<uint32_t> made_;
+};
+
+// One a frame slot, which the host reads.
+struct PairCounts {
+    PairCounts(const gpu::Device& device, vk::DescriptorSetLayout layout)
+        : arena(device), buffer(arena.makeBuffer(sizeof(io::PairCounts),
+                                                 vk::BufferUsageFlagBits::eStorageBuffer |
+                                                     vk::BufferUsageFlagBits::eTransferDst,
+                                                 gpu::MemoryUse::kReadback,
+                                                 "pair counts")),
+          pool(makePairPool(device)), set(gpu::makeSet(device, pool, layout)) {
+        const vk::DescriptorBufferInfo info{*buffer.handle, 0, VK_WHOLE_SIZE};
+        device.handle().updateDescriptorSets(
+            vk::WriteDescriptorSet{.dstSet = *set,
+                                   .dstBinding = 0,
+                                   .descriptorCount = 1,
+                                   .descriptorType = vk::DescriptorType::eStorageBuffer,
+                                   .pBufferInfo = &info},
+            {});
+    }
+
+    gpu::MemoryArena arena;
+    gpu::Buffer buffer;
+    vk::raii::DescriptorPool pool;
+    vk::raii::DescriptorSet set;
+};
+
+class Pairs final : public Step {
+  public:
+    explicit Pairs(SceneResources& scene) : scene_(scene) {}
+
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
+        passes.push_back({pass::kCountPairs, timeOver(cost(costs), costs.load().drawn)});
+    }
+    [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
+        return costs.unit().counting.loop;
+    }
+    void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
+        (void)slot.stored.findOrMake<PairCounts>(scene_.shared.device,
+                                                 scene_.shared.stored<PairPipelines>().setLayout());
+    }
+    void record(const FrameContext& frame) const override {
+        const auto& cmd = frame.slot.cmd;
+        cmd.fillBuffer(*frame.slot.stored.get<PairCounts>().buffer.handle, 0, VK_WHOLE_SIZE, 0);
+        computeAfterTransfer(cmd);
+        inParts(frame, frame.drawn(), cost(frame.costs), recordPart);
+    }
+    void addResults(const FrameSlot& slot, FrameStats& stats) const override {
+        io::PairCounts counts{};
+        std::memcpy(&counts, slot.stored.get<PairCounts>().buffer.mapped, sizeof(counts));
+        stats.pairs = {.counted = true,
+                       .evaluated = join(counts.evaluated_low, counts.evaluated_high),
+                       .contributing = join(counts.contributing_low, counts.contributing_high)};
+    }
+
+  private:
+    static RegionCost cost(const FrameCosts& costs) { return costs.shading(costs.unit().counting); }
+    static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
+        const auto& cmd = frame.slot.cmd;
+        const gpu::PassScope scope(frame.slot.timestamps, cmd, pass::kCountPairs);
+        auto& pipelines = frame.scene.shared.stored<PairPipelines>();
+        cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
+                         pipelines.find(frame.plan.lighting_light_flags));
+        const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
+                                 *frame.slot.stored.get<PairCounts>().set};
+        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.layout(), 0, sets, {});
+        dispatchOver(cmd, part);
+    }
+
+    SceneResources& scene_;
+};
+
+} // namespace
+
+const StepRow kPairsStep{
+    .name = pass::kCountPairs,
+    .plan =
+        [](const PlanInputs& inputs) {
+            return inputs.settings.count_pairs && inputs.facts.hasLight(io::kLightLocal)
+                       ? std::optional(StepPlan{})
+                       : std::nullopt;
+        },
+    .uses =
+        [](const FramePlan&, const StepPlan&) {
+            return std::vector{use::sampled(Resource::kDepth), use::sampled(Resource::kLists)};
+        },
+    .words =
+        [](const PlanInputs& inputs, const StepPlan* plan) {
+            return std::string(plan != nullptr && !settings::replacesPicture(inputs.plan.debug)
+                                   ? "a separate pass counts (light, pixel) pairs"
+                                   : "");
+        },
+    .make = makeStep<Pairs>};
+
+} // namespace froxel::render
