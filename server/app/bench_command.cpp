@@ -13,7 +13,7 @@
 #include "bench/presets.h"
 #include "bench/run.h"
 #include "net/stop_signal.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "report/device_summary.h"
 #include "session/session_context.h"
 

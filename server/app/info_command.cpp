@@ -12,7 +12,7 @@
 #include "gltf/image_decode.h"
 #include "gpu/device.h"
 #include "net/facts.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "report/device_summary.h"
 #include "report/frame_report.h"
 

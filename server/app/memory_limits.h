@@ -1,7 +1,7 @@
 // How much memory a server lets its sessions take: by options, or by the device and the host.
 #pragma once
 
-#include "render/scene/memory_budget.h"
+#include "render/device/memory_budget.h"
 
 #include <cstdint>
 #include <filesystem>

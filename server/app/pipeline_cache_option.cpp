@@ -1,7 +1,7 @@
 #include "app/pipeline_cache_option.h"
 
 #include "gpu/pipeline_cache.h"
-#include "render/build_hash.h"
+#include "render/device/build_hash.h"
 
 namespace froxel::app {
 

@@ -7,8 +7,8 @@
 #include "app/timings_report.h"
 #include "encode/image_file.h"
 #include "motion/posed_scene.h"
-#include "render/renderer.h"
-#include "render/sample_mean.h"
+#include "render/view/renderer.h"
+#include "render/view/sample_mean.h"
 #include "report/frame_step.h"
 #include "settings/samples.h"
 

@@ -2,7 +2,7 @@
 
 #include "app/scene_source.h"
 #include "catalogue/catalogue.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "session/session_context.h"
 
 #include <boost/algorithm/string/classification.hpp>

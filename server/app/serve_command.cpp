@@ -15,7 +15,7 @@
 #include "net/stop_signal.h"
 #include "net/tls.h"
 #include "net/token_gate.h"
-#include "render/memory_report.h"
+#include "render/view/memory_report.h"
 #include "stream/renderer_source.h"
 
 #include <spdlog/spdlog.h>

@@ -4,7 +4,7 @@
 #include "core/clock.h"
 #include "render/frame/frame_plan.h"
 #include "render/pipelines/gbuffer_layout.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 
 #include <cstddef>
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "report/frame_step.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "stream/renderer_source.h"
 
 #include "core/keep_for_good.h"
-#include "render/device_speed.h"
-#include "render/renderer.h"
+#include "render/view/device_speed.h"
+#include "render/view/renderer.h"
 #include "stream/device_pace.h"
 #include "stream/piece_share.h"
 

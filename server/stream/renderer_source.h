@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/clock.h"
-#include "render/scene/memory_budget.h"
+#include "render/device/memory_budget.h"
 #include "stream/frame_source.h"
 
 #include <memory>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/allowance.h"
-#include "render/sample_mean.h"
+#include "render/view/sample_mean.h"
 #include "session/affordable_scale.h"
 #include "session/refinement.h"
 #include "session/render_scale.h"

@@ -2,7 +2,7 @@
 // bench_visibility [SCENE.gltf]; the built-in hall without. On a GPU where there is one.
 #include "builtin_scene/hall.h"
 #include "gltf/gltf_loader.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 
 #include <algorithm>
 #include <bit>

@@ -5,7 +5,7 @@
 #include "builtin_scene/hall.h"
 #include "gltf/gltf_loader.h"
 #include "render/pipelines/gbuffer_layout.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "settings/camera.h"
 
 #include <algorithm>

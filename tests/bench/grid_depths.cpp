@@ -6,8 +6,8 @@
 #include "gltf/gltf_loader.h"
 #include "light/light_rig.h"
 #include "reference/geometry.h"
-#include "render/renderer.h"
-#include "render/visibility_readback.h"
+#include "render/view/renderer.h"
+#include "render/view/visibility_readback.h"
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 // [SCENE.gltf|hall]; on a GPU where there is one.
 #include "builtin_scene/hall.h"
 #include "gltf/gltf_loader.h"
-#include "render/renderer.h"
 #include "render/scene/geometry_pack.h"
-#include "render/visibility_readback.h"
+#include "render/view/renderer.h"
+#include "render/view/visibility_readback.h"
 
 #include <algorithm>
 #include <array>

@@ -29,7 +29,7 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(len(violations("render", include)), 1)
 
     def test_forbidden_include_is_named(self):
-        found = violations("session", "", '#include "render/renderer.h"')
+        found = violations("session", "", '#include "render/view/renderer.h"')
         self.assertEqual(len(found), 1)
         self.assertIn("a.cpp:2: session may not include render", found[0])
 

@@ -1,5 +1,5 @@
 // Antialiasing against many samples a pixel, and outlines: where they are and where they are not.
-#include "render/sample_mean.h"
+#include "render/view/sample_mean.h"
 #include "settings/samples.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"

@@ -1,7 +1,7 @@
 // Exposure that a frame meters by itself: against the same sums in double, and what it promises: a
 // function of the frame alone, the same for every way to draw it, defined for every picture.
 #include "reference/exposure.h"
-#include "render/visibility_readback.h"
+#include "render/view/visibility_readback.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/shapes.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reference/shade.h"
-#include "render/visibility_readback.h"
+#include "render/view/visibility_readback.h"
 #include "support/draw.h"
 #include "support/shapes.h"
 

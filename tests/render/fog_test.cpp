@@ -3,7 +3,7 @@
 #include "fog_pictures.h"
 #include "reference/rays.h"
 #include "reference/shade.h"
-#include "render/visibility_readback.h"
+#include "render/view/visibility_readback.h"
 #include "settings/environment.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"

@@ -1,6 +1,6 @@
 // What memoryNeed() says against what the device's ledger has, and the budget that is asked with
 // it.
-#include "render/memory_need.h"
+#include "render/view/memory_need.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"

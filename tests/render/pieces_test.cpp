@@ -1,9 +1,9 @@
 // Frames that are cut, so that the device can be taken back between their pieces, are the same
 // pictures to the bit.
 #include "builtin_scene/hall.h"
-#include "render/renderer.h"
+#include "render/device/unit_costs.h"
 #include "render/scene/scene_resources.h"
-#include "render/scene/unit_costs.h"
+#include "render/view/renderer.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"

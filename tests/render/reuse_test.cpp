@@ -1,5 +1,5 @@
 // What rests is not drawn again, and nobody can tell from a picture.
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "settings/setting_rows.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"

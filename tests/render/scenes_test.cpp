@@ -1,6 +1,6 @@
 // Several scenes on one device.
-#include "render/renderer.h"
-#include "render/scene/device_resources.h"
+#include "render/device/device_resources.h"
+#include "render/view/renderer.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"

@@ -4,7 +4,7 @@
 #include "reference/shade.h"
 #include "render/scene/scene_resources.h"
 #include "render/steps/shadows.h"
-#include "render/visibility_readback.h"
+#include "render/view/visibility_readback.h"
 #include "support/draw.h"
 #include "support/exact.h"
 #include "support/gpu_fixture.h"

@@ -1,6 +1,6 @@
 // Times of frames and passes on the device, and what is made of a driver that does not tell them.
-#include "render/device_speed.h"
-#include "render/renderer.h"
+#include "render/view/device_speed.h"
+#include "render/view/renderer.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"

@@ -1,7 +1,7 @@
 // One frame, drawn and read back.
 #pragma once
 
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 
 #include <cstring>
 #include <string_view>

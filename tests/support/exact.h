@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/visibility.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "support/draw.h"
 
 namespace froxel::test {

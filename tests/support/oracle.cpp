@@ -4,7 +4,7 @@
 #include "light/light_rig.h"
 #include "reference/shade.h"
 #include "render/lists/light_grid.h"
-#include "render/visibility_readback.h"
+#include "render/view/visibility_readback.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "core/linear_image.h"
 #include "core/visibility.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "support/draw.h"
 
 #include <functional>

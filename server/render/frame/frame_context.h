@@ -26,8 +26,8 @@ struct FrameContext {
     bool spoil_scratch = false; // FrameInputs::spoil_scratch, of a frame that reuses surfaces
 
     // What it is drawn at, and what is shown of it.
-    [[nodiscard]] const settings::Size& drawn() const { return slot.targets->size; }
-    [[nodiscard]] const settings::Size& shown() const { return slot.targets->shown; }
+    [[nodiscard]] const settings::Size& drawn() const { return slot.targets->size.drawn; }
+    [[nodiscard]] const settings::Size& shown() const { return slot.targets->size.shown; }
 };
 
 // Calls record(frame, part) for parts of a picture of `size`, where pieces may end.

@@ -150,8 +150,9 @@ Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {
         fmt::format("a picture of {}x{} with up to {} lights a pixel takes about {:.3g} s of this "
                     "device, {:.3g} s of it for {}; a frame may take {:.3g} s. Use fewer or "
                     "smaller lights, light lists, fewer effects, or a smaller picture",
-                    inputs_.shown.width_px, inputs_.shown.height_px, inputs_.pairs.longest(),
-                    sum.count(), dearest->time.count(), dearest->pass, limit.count()),
+                    inputs_.size.shown.width_px, inputs_.size.shown.height_px,
+                    inputs_.pairs.longest(), sum.count(), dearest->time.count(), dearest->pass,
+                    limit.count()),
         sum / limit};
 }
 
@@ -179,7 +180,7 @@ double FrameCosts::pairsWithin(Seconds limit) const {
     constexpr double kAny = 1e9;
     const Seconds rest = totalWith(0);
     const Seconds room = std::max(limit - rest, limit / 2);
-    const double pairs = areaOf({{0, 0}, extentOf(inputs_.drawn)}) * kEach;
+    const double pairs = areaOf({{0, 0}, extentOf(inputs_.size.drawn)}) * kEach;
     const Seconds taken = totalWith(kEach) - rest;
     return pairs * (room.count() / std::max(taken.count(), room.count() / kAny));
 }

@@ -4,11 +4,12 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "render/device/unit_costs.h"
 #include "render/frame/draw_list.h"
 #include "render/frame/frame_pieces.h"
+#include "render/frame/frame_plan.h"
 #include "render/frame/step.h"
 #include "render/lists/pair_bound.h"
-#include "render/scene/unit_costs.h"
 
 #include <cstdint>
 #include <optional>
@@ -26,8 +27,7 @@ struct CostInputs {
     };
 
     const DrawList& draws;
-    settings::Size drawn;
-    settings::Size shown;
+    FrameSize size;
     PairBound pairs;
     uint64_t longest_loop = 0; // of `pairs`, where it is more than a bound; 0: not known
     uint32_t directional_count = 0;

@@ -245,11 +245,12 @@ FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
     return facts;
 }
 
-settings::Size drawnSize(const settings::ViewSettings& settings) {
+FrameSize frameSize(const settings::ViewSettings& settings) {
     const uint32_t across = settings::replacesPicture(settings.debug.view)
                                 ? 1
                                 : settings::samplesAcross(settings.antialiasing);
-    return {settings.size.width_px * across, settings.size.height_px * across};
+    return {.drawn = {settings.size.width_px * across, settings.size.height_px * across},
+            .shown = settings.size};
 }
 
 FramePlan planFrame(const settings::ViewSettings& settings,

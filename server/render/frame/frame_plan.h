@@ -129,8 +129,13 @@ inline constexpr std::array kPoseResources = {Resource::kPosed};
 // Whether the plan's surfaces are those of the view's frame before.
 [[nodiscard]] bool reusesSurfaces(const FramePlan& plan);
 
-// What the settings' pictures are drawn at: twice the sides where pixels have four samples.
-[[nodiscard]] settings::Size drawnSize(const settings::ViewSettings& settings);
+// Of a frame.
+struct FrameSize {
+    settings::Size drawn; // twice the sides of what is shown where pixels have four samples
+    settings::Size shown;
+    bool operator==(const FrameSize&) const = default;
+};
+[[nodiscard]] FrameSize frameSize(const settings::ViewSettings& settings);
 
 // `rows`: all steps that there are, in the order of the frame.
 [[nodiscard]] FramePlan planFrame(const settings::ViewSettings& settings,

@@ -1,8 +1,8 @@
 #include "render/frame/view_targets.h"
 
+#include "render/device/visibility_pipelines.h"
 #include "render/pipelines/gbuffer_layout.h"
 #include "render/pipelines/pipelines.h"
-#include "render/scene/visibility_pipelines.h"
 
 #include <algorithm>
 
@@ -50,21 +50,20 @@ std::vector<TargetImage> targetImages(const settings::Size& drawn, const TargetN
 }
 
 ViewTargets::ViewTargets(const gpu::Device& device,
-                         const settings::Size& drawn,
-                         const settings::Size& shown_in,
+                         const FrameSize& size_in,
                          const TargetNeeds& needs_in)
-    : size(drawn), shown(shown_in), needs(needs_in), arena(device) {
+    : size(size_in), needs(needs_in), arena(device) {
     using BufferUsage = vk::BufferUsageFlagBits;
-    for (const auto& [image, name, info] : targetImages(size, needs)) {
+    for (const auto& [image, name, info] : targetImages(size.drawn, needs)) {
         this->*image = arena.makeImage(info, name);
     }
     if (needs.compute_raster) {
-        words = arena.makeBuffer(kWordBytes * size.width_px * size.height_px,
+        words = arena.makeBuffer(kWordBytes * size.drawn.width_px * size.drawn.height_px,
                                  BufferUsage::eStorageBuffer | BufferUsage::eTransferSrc |
                                      BufferUsage::eTransferDst,
                                  gpu::MemoryUse::kDevice, "depth and id words");
     }
-    const auto packed_bytes = packedBytes(shown);
+    const auto packed_bytes = packedBytes(size.shown);
     for (uint32_t i = 0; i < needs.display_count; ++i) {
         display[i] = arena.makeBuffer(
             packed_bytes, BufferUsage::eStorageBuffer | BufferUsage::eUniformTexelBuffer,
@@ -111,10 +110,7 @@ void addUse(const Use& use, TargetNeeds& needs) {
 
 } // namespace
 
-TargetNeeds targetNeeds(const FramePlan& plan,
-                        const settings::Size& drawn,
-                        const settings::Size& shown,
-                        const ViewTargets* kept) {
+TargetNeeds targetNeeds(const FramePlan& plan, const FrameSize& size, const ViewTargets* kept) {
     TargetNeeds needs;
     for (const PlannedStep& step : plan.steps) {
         for (const Use& use : step.uses(plan)) {
@@ -122,7 +118,7 @@ TargetNeeds targetNeeds(const FramePlan& plan,
         }
     }
     needs.gbuffer_flags = needs.gbuffer ? plan.gbuffer_output_flags : 0;
-    if (kept == nullptr || kept->size != drawn || kept->shown != shown) {
+    if (kept == nullptr || kept->size != size) {
         return needs;
     }
     const TargetNeeds& had = kept->needs;

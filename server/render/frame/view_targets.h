@@ -59,10 +59,10 @@ struct ReadbackBytes {
     vk::DeviceSize radiance = 0; // 0: it stays on the device
     bool operator==(const ReadbackBytes&) const = default;
 };
-[[nodiscard]] inline ReadbackBytes
-readbackBytes(const settings::Size& drawn, const settings::Size& shown, bool radiance) {
+[[nodiscard]] inline ReadbackBytes readbackBytes(const FrameSize& size, bool radiance) {
     constexpr vk::DeviceSize kTexel = 4 * sizeof(float);
-    return {packedBytes(shown), radiance ? kTexel * drawn.width_px * drawn.height_px : 0};
+    return {packedBytes(size.shown),
+            radiance ? kTexel * size.drawn.width_px * size.drawn.height_px : 0};
 }
 
 // What depth, ids and G-buffer were drawn from. They are functions of it alone: equal ones need no
@@ -80,13 +80,9 @@ struct SurfacesDrawn {
 
 struct ViewTargets {
     // All images end in the GENERAL layout, where they stay. Throws vk::OutOfDeviceMemoryError.
-    ViewTargets(const gpu::Device& device,
-                const settings::Size& drawn,
-                const settings::Size& shown,
-                const TargetNeeds& needs);
+    ViewTargets(const gpu::Device& device, const FrameSize& size, const TargetNeeds& needs);
 
-    settings::Size size;  // drawn at
-    settings::Size shown; // of the pixels; smaller where they have several samples
+    FrameSize size;
     TargetNeeds needs;
     gpu::MemoryArena arena;
     gpu::Image depth;
@@ -103,10 +99,8 @@ struct ViewTargets {
     bool rastered_in_compute = false;      // solid surfaces of the frame last submitted
     std::optional<SurfacesDrawn> surfaces; // that they hold once what is submitted has run
 
-    [[nodiscard]] bool fits(const settings::Size& drawn,
-                            const settings::Size& shown_now,
-                            const TargetNeeds& wanted) const {
-        return size == drawn && shown == shown_now && needs == wanted;
+    [[nodiscard]] bool fits(const FrameSize& wanted_size, const TargetNeeds& wanted) const {
+        return size == wanted_size && needs == wanted;
     }
     // Of that frame's solid surfaces.
     [[nodiscard]] const gpu::Image& solidDepth() const {
@@ -116,9 +110,7 @@ struct ViewTargets {
 
 // What a frame needs, and what targets of the same size (null: none) had besides: settings may go
 // to and fro.
-[[nodiscard]] TargetNeeds targetNeeds(const FramePlan& plan,
-                                      const settings::Size& drawn,
-                                      const settings::Size& shown,
-                                      const ViewTargets* kept);
+[[nodiscard]] TargetNeeds
+targetNeeds(const FramePlan& plan, const FrameSize& size, const ViewTargets* kept);
 
 } // namespace froxel::render

@@ -28,8 +28,7 @@ void recordTargetCopy(const vk::raii::CommandBuffer& cmd,
         vk::BufferImageCopy{.bufferOffset = offset,
                             .imageSubresource = {aspect, 0, 0, 1},
                             .imageExtent = {target.extent.width, target.extent.height, 1}});
-    // copy -> host
-    barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+    recordHostRead(cmd);
 }
 
 } // namespace froxel::render

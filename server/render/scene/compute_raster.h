@@ -4,7 +4,7 @@
 
 #include "gpu/memory.h"
 #include "interface/raster_io.h"
-#include "render/scene/visibility_pipelines.h"
+#include "render/device/visibility_pipelines.h"
 
 #include <cstdint>
 #include <span>

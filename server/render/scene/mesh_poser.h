@@ -5,8 +5,8 @@
 #include "gpu/memory.h"
 #include "gpu/upload.h"
 #include "interface/pose_io.h"
+#include "render/device/pose_pipelines.h"
 #include "render/scene/geometry_pack.h"
-#include "render/scene/pose_pipelines.h"
 #include "scene/scene.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "render/scene/scene_motion.h"
 
-#include "render/scene/device_resources.h"
+#include "render/device/device_resources.h"
 
 namespace froxel::render {
 

@@ -3,8 +3,8 @@
 
 #include "gpu/memory.h"
 #include "light/light_rig.h"
+#include "render/device/device_resources.h"
 #include "render/pipelines/typed_store.h"
-#include "render/scene/device_resources.h"
 #include "render/scene/geometry_pack.h"
 #include "render/scene/material_set.h"
 #include "render/scene/scene_motion.h"

@@ -6,9 +6,9 @@
 #include "gpu/upload.h"
 #include "interface/frame_io.h"
 #include "interface/visibility_io.h"
+#include "render/device/visibility_pipelines.h"
 #include "render/scene/compute_raster.h"
 #include "render/scene/mesh_poser.h"
-#include "render/scene/visibility_pipelines.h"
 
 #include <cstdint>
 #include <memory>

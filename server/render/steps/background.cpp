@@ -32,7 +32,7 @@ class Background final : public Step {
     explicit Background(SceneResources& /*scene*/) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kBackground, timeOver(costOf(costs), costs.load().drawn)});
+        passes.push_back({pass::kBackground, timeOver(costOf(costs), costs.load().size.drawn)});
     }
     void record(const FrameContext& frame) const override {
         inParts(frame, frame.drawn(), costOf(frame.costs), recordPart);

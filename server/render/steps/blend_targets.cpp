@@ -38,7 +38,7 @@ BlendTargets::BlendTargets(const gpu::Device& device,
     : arena(device), transparency_(transparency), view_(std::move(view)),
       solid_depth_(*view_->solidDepth().view) {
     std::vector<gpu::Image> images;
-    for (const auto& [name, info] : blendImages(transparency, view_->size)) {
+    for (const auto& [name, info] : blendImages(transparency, view_->size.drawn)) {
         images.push_back(arena.makeImage(info, name));
     }
     sums = std::move(images[0]);

@@ -204,10 +204,10 @@ void Blended::addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passe
     const bool peeled = (plan().way & kPeeled) != 0;
     const double count = peeled ? layer_count_ + (counts_overflow_ ? 1 : 0) : 1;
     passes.push_back({peeled ? pass::kPeel : pass::kTransparent,
-                      count * timeOver(cost(costs), costs.load().drawn)});
+                      count * timeOver(cost(costs), costs.load().size.drawn)});
     if (apart()) {
         passes.push_back({overUnlit() ? pass::kBlendOverUnlit : pass::kBlendResolve,
-                          timeOver(costs.screen(), costs.load().drawn)});
+                          timeOver(costs.screen(), costs.load().size.drawn)});
     }
 }
 

@@ -57,7 +57,7 @@ class DebugPicture final : public Step {
     explicit DebugPicture(SceneResources& /*scene*/) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kDebugView, timeOver(cost(costs), costs.load().drawn)});
+        passes.push_back({pass::kDebugView, timeOver(cost(costs), costs.load().size.drawn)});
     }
     [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
         return settings::testsLights(view_) ? costs.unit().counting.loop : 0;

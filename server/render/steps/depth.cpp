@@ -14,7 +14,7 @@ class DepthPrepass final : public CountingStep {
     using CountingStep::CountingStep;
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kDepthPrepass, timeOver(costs.depth(), costs.load().drawn)});
+        passes.push_back({pass::kDepthPrepass, timeOver(costs.depth(), costs.load().size.drawn)});
     }
     void record(const FrameContext& frame) const override {
         restart(frame);

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "interface/environment_io.h"
+#include "render/device/unit_costs.h"
 #include "render/frame/step_plan.h"
-#include "render/scene/unit_costs.h"
 #include "render/steps/environment_maps.h"
 
 namespace froxel::render {

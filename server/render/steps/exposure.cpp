@@ -105,7 +105,7 @@ class Exposure final : public Step {
     explicit Exposure(SceneResources& scene) : scene_(scene) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        const auto& drawn = costs.load().drawn;
+        const auto& drawn = costs.load().size.drawn;
         passes.push_back({pass::kExposure, timeOver(countingCost(costs), invocationsOver(drawn))});
     }
     void addMemory(NeedList& need) const override {

@@ -136,7 +136,7 @@ class Fog final : public Step {
         if (hasVolume()) {
             passes.push_back({pass::kFogScatter, timeOver(scatterCost(costs), nodes())});
         }
-        passes.push_back({pass::kFog, timeOver(costs.screen(), costs.load().drawn)});
+        passes.push_back({pass::kFog, timeOver(costs.screen(), costs.load().size.drawn)});
     }
     double loopCost(const FrameCosts& costs) const override {
         return hasVolume() ? pairCost(costs.unit()).loop : 0;
@@ -190,7 +190,7 @@ RegionCost Fog::scatterCost(const FrameCosts& costs) const {
     return {Seconds(0),
             [&costs, &fog = fog_, pair, froxel](const vk::Rect2D& nodes) {
                 const uint32_t tile = fog.tile_px;
-                const auto& drawn = costs.load().drawn;
+                const auto& drawn = costs.load().size.drawn;
                 const vk::Rect2D whole{{0, 0}, {drawn.width_px, drawn.height_px}};
                 const vk::Rect2D region =
                     common(whole, {{nodes.offset.x * static_cast<int32_t>(tile),

@@ -28,8 +28,8 @@ class Forward final : public CountingStep {
         }
     }
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back(
-            {by_ids_ ? pass::kShade : pass::kForward, timeOver(cost(costs), costs.load().drawn)});
+        passes.push_back({by_ids_ ? pass::kShade : pass::kForward,
+                          timeOver(cost(costs), costs.load().size.drawn)});
     }
     [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
         return costs.shadedLoop(by_ids_ ? costs.unit().compute : costs.unit().fragment);

@@ -79,7 +79,7 @@ class Fxaa final : public Step {
     explicit Fxaa(SceneResources& scene) : scene_(scene) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kFxaa, timeOver(costs.screen(), costs.load().shown)});
+        passes.push_back({pass::kFxaa, timeOver(costs.screen(), costs.load().size.shown)});
     }
 
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {

@@ -23,8 +23,8 @@ class Gbuffer final : public CountingStep {
     using CountingStep::CountingStep;
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back(
-            {by_ids_ ? pass::kResolve : pass::kGbuffer, timeOver(cost(costs), costs.load().drawn)});
+        passes.push_back({by_ids_ ? pass::kResolve : pass::kGbuffer,
+                          timeOver(cost(costs), costs.load().size.drawn)});
     }
     void record(const FrameContext& frame) const override {
         restart(frame);

@@ -60,7 +60,7 @@ class Ids final : public Step {
                                  : static_cast<uint32_t>(visible_->materials_in_use.size());
     }
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kVisibility, timeOver(cost(costs), costs.load().drawn)});
+        passes.push_back({pass::kVisibility, timeOver(cost(costs), costs.load().size.drawn)});
     }
     // The host does not know what the device culls.
     void addStats(FrameStats& stats) const override {

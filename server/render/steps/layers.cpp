@@ -27,7 +27,7 @@ class Layers final : public Step {
     }
     // However few pixels have any.
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kLayers, timeOver(cost(costs), costs.load().drawn)});
+        passes.push_back({pass::kLayers, timeOver(cost(costs), costs.load().size.drawn)});
     }
     [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
         return costs.shadedLoop(by_ids_ ? costs.unit().compute : costs.unit().fragment);

@@ -74,7 +74,7 @@ class Lighting final : public Step {
     explicit Lighting(SceneResources& /*scene*/) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kLighting, timeOver(cost(costs), costs.load().drawn)});
+        passes.push_back({pass::kLighting, timeOver(cost(costs), costs.load().size.drawn)});
     }
     [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
         return pairCost(costs).loop;

@@ -20,7 +20,7 @@ class Outline final : public Step {
     explicit Outline(SceneResources& /*scene*/) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kOutline, timeOver(costs.screen(), costs.load().drawn)});
+        passes.push_back({pass::kOutline, timeOver(costs.screen(), costs.load().size.drawn)});
     }
     void record(const FrameContext& frame) const override {
         inParts(frame, frame.drawn(), frame.costs.screen(),

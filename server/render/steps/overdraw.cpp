@@ -17,7 +17,7 @@ class Overdraw final : public Step {
     explicit Overdraw(SceneResources& /*scene*/) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kOverdraw, timeOver(costs.surfaces(), costs.load().drawn)});
+        passes.push_back({pass::kOverdraw, timeOver(costs.surfaces(), costs.load().size.drawn)});
     }
     void record(const FrameContext& frame) const override {
         inParts(frame, frame.drawn(), frame.costs.surfaces(), recordPart);

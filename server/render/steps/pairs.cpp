@@ -19,6 +19,8 @@ namespace froxel::render {
 
 namespace {
 
+constexpr uint32_t kLit = 1U << 0U; // of StepPlan::way: there is something to count
+
 vk::raii::DescriptorSetLayout pairSetLayout(const gpu::Device& device) {
     const std::array bindings = {vk::DescriptorSetLayoutBinding{
         0, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute}};
@@ -93,22 +95,36 @@ class Pairs final : public Step {
     explicit Pairs(SceneResources& scene) : scene_(scene) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kCountPairs, timeOver(cost(costs), costs.load().drawn)});
+        if (!lit()) {
+            return;
+        }
+        passes.push_back({pass::kCountPairs, timeOver(cost(costs), costs.load().size.drawn)});
     }
     [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
-        return costs.unit().counting.loop;
+        return lit() ? costs.unit().counting.loop : 0;
     }
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
+        if (!lit()) {
+            return;
+        }
         (void)slot.stored.findOrMake<PairCounts>(scene_.shared.device,
                                                  scene_.shared.stored<PairPipelines>().setLayout());
     }
+    // Without lights: as none.
+    void addStats(FrameStats& stats) const override { stats.pairs.counted = true; }
     void record(const FrameContext& frame) const override {
+        if (!lit()) {
+            return;
+        }
         const auto& cmd = frame.slot.cmd;
         cmd.fillBuffer(*frame.slot.stored.get<PairCounts>().buffer.handle, 0, VK_WHOLE_SIZE, 0);
         computeAfterTransfer(cmd);
         inParts(frame, frame.drawn(), cost(frame.costs), recordPart);
     }
     void addResults(const FrameSlot& slot, FrameStats& stats) const override {
+        if (!lit()) {
+            return;
+        }
         io::PairCounts counts{};
         std::memcpy(&counts, slot.stored.get<PairCounts>().buffer.mapped, sizeof(counts));
         stats.pairs = {.counted = true,
@@ -117,6 +133,7 @@ class Pairs final : public Step {
     }
 
   private:
+    [[nodiscard]] bool lit() const { return (plan().way & kLit) != 0; }
     static RegionCost cost(const FrameCosts& costs) { return costs.shading(costs.unit().counting); }
     static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
         const auto& cmd = frame.slot.cmd;
@@ -139,9 +156,8 @@ const StepRow kPairsStep{
     .name = pass::kCountPairs,
     .plan =
         [](const PlanInputs& inputs) {
-            return inputs.settings.count_pairs && inputs.facts.hasLight(io::kLightLocal)
-                       ? std::optional(StepPlan{})
-                       : std::nullopt;
+            const uint32_t way = inputs.facts.hasLight(io::kLightLocal) ? kLit : 0U;
+            return inputs.settings.count_pairs ? std::optional(StepPlan{.way = way}) : std::nullopt;
         },
     .uses =
         [](const FramePlan&, const StepPlan&) {
@@ -149,7 +165,8 @@ const StepRow kPairsStep{
         },
     .words =
         [](const PlanInputs& inputs, const StepPlan* plan) {
-            return std::string(plan != nullptr && !settings::replacesPicture(inputs.plan.debug)
+            const bool counts = plan != nullptr && (plan->way & kLit) != 0;
+            return std::string(counts && !settings::replacesPicture(inputs.plan.debug)
                                    ? "a separate pass counts (light, pixel) pairs"
                                    : "");
         },

@@ -26,7 +26,7 @@ class PixelReadback final : public Step {
 
   private:
     static Seconds timeOf(const FrameCosts& costs) {
-        const auto& size = costs.load().shown;
+        const auto& size = costs.load().size.shown;
         return Seconds(static_cast<double>(size.width_px) * size.height_px *
                        costs.unit().copied_pixel);
     }
@@ -37,7 +37,7 @@ class RadianceReadback final : public Step {
     explicit RadianceReadback(SceneResources& /*scene*/) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kRadianceReadback, timeOver(cost(), costs.load().drawn)});
+        passes.push_back({pass::kRadianceReadback, timeOver(cost(), costs.load().size.drawn)});
     }
     void record(const FrameContext& frame) const override {
         inParts(frame, frame.drawn(), cost(), recordPart);

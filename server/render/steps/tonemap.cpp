@@ -27,7 +27,7 @@ class Tonemap final : public Step {
     explicit Tonemap(SceneResources& /*scene*/) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kTonemap, timeOver(costs.screen(), costs.load().shown)});
+        passes.push_back({pass::kTonemap, timeOver(costs.screen(), costs.load().size.shown)});
     }
     void record(const FrameContext& frame) const override {
         const uint32_t samples = (plan().way & kSamples) != 0 ? io::kOutputSamples : 0U;
@@ -69,7 +69,8 @@ std::string wordsOfTonemap(const PlanInputs& inputs, const StepPlan* plan) {
     }
     if (plan == nullptr) {
         return std::string("tone mapping in the ") +
-               (frame.find(kToonStep) != nullptr ? "toon" : "lighting") + " pass: no separate pass";
+               (frame.find(kToonStep) != nullptr ? kToonStep : kLightingStep).name +
+               " pass: no separate pass";
     }
     const PlannedStep* last = lastOverRadiance(frame);
     const std::string where = "tone mapping in a separate pass, after ";

@@ -27,7 +27,7 @@ class Toon final : public Step {
     explicit Toon(SceneResources& /*scene*/) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kToon, timeOver(costs.screen(), costs.load().drawn)});
+        passes.push_back({pass::kToon, timeOver(costs.screen(), costs.load().size.drawn)});
     }
     void record(const FrameContext& frame) const override {
         const uint32_t lights = (plan().way & kBands) != 0 ? io::kLightBands : 0U;

@@ -29,7 +29,7 @@ class CountingStep : public Step {
     }
     void addResults(const FrameSlot& slot, FrameStats& /*stats*/) const override {
         if (counts()) {
-            const auto& drawn = slot.targets->size;
+            const auto& drawn = slot.targets->size.drawn;
             scene_.overdraw = static_cast<double>(slot.stored.get<gpu::SampleCounter>().read()) /
                               (static_cast<double>(drawn.width_px) * drawn.height_px);
         }

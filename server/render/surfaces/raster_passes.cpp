@@ -49,7 +49,7 @@ void drawMaterials(const FrameContext& frame, RasterStep step, Dispatch dispatch
 }
 
 vk::BufferImageCopy wholeImage(const FrameContext& frame, vk::ImageAspectFlags aspect) {
-    const auto& size = frame.slot.targets->size;
+    const auto& size = frame.drawn();
     return {.imageSubresource = {aspect, 0, 0, 1},
             .imageExtent = {size.width_px, size.height_px, 1}};
 }
@@ -92,7 +92,7 @@ void recordRasterBlocks(const FrameContext& frame) {
 void recordRasterUnpack(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterUnpack);
     bindVisibilityCompute(frame, frame.visibility->pipelines.compute(RasterStep::kUnpack));
-    const auto& size = frame.slot.targets->size;
+    const auto& size = frame.drawn();
     frame.slot.cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
 }
 

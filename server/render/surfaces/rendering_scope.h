@@ -38,7 +38,7 @@ class Rendering {
               std::span<const vk::RenderingAttachmentInfo> colors,
               const vk::RenderingAttachmentInfo* depth)
         : cmd_(frame.slot.cmd) {
-        const auto& size = frame.slot.targets->size;
+        const auto& size = frame.drawn();
         cmd_.beginRendering({.renderArea = region,
                              .layerCount = 1,
                              .colorAttachmentCount = static_cast<uint32_t>(colors.size()),

@@ -2,7 +2,7 @@
 #include "bench/errors.h"
 #include "bench/shown_picture.h"
 #include "builtin_scene/hall.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "support/gpu_fixture.h"
 
 #include <algorithm>

@@ -21,7 +21,7 @@ class OnePass final : public Step {
         : label_(label), cost_(cost), loops_(loops) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({label_, timeOver(cost_(costs), costs.load().drawn)});
+        passes.push_back({label_, timeOver(cost_(costs), costs.load().size.drawn)});
     }
     [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
         return loops_ != nullptr ? costs.shadedLoop(costs.unit().*loops_) : 0;
@@ -51,8 +51,7 @@ struct Load {
     DrawList draws;
     [[nodiscard]] CostInputs of(const PairBound& pairs) const {
         return {.draws = draws,
-                .drawn = {640, 360},
-                .shown = {640, 360},
+                .size = {.drawn = {640, 360}, .shown = {640, 360}},
                 .pairs = pairs,
                 .steps = steps};
     }
@@ -147,7 +146,7 @@ TEST(FrameCosts, Coats_LightForwardPixelsTwice) {
 TEST(FrameCosts, LongLoopOfFewPixels_CountsAndMayBeRefused) {
     const Load load;
     CostInputs few = load.of(PairBound::uniform(900'000));
-    few.drawn = few.shown = {16, 16};
+    few.size.drawn = few.size.shown = {16, 16};
     const FrameCosts unknown(kGpuUnitCosts, few);
     EXPECT_LT(unknown.total(), Seconds(0.01));
     EXPECT_TRUE(unknown.check(Seconds(1), Seconds(0.05)));
@@ -166,7 +165,7 @@ TEST(FrameCosts, LongLoopOfFewPixels_CountsAndMayBeRefused) {
 TEST(FrameCosts, LongLoopOnACpu_IsLongerThanItsPixelsShareOfAllCores) {
     const Load load;
     CostInputs few = load.of(PairBound::uniform(100'000));
-    few.drawn = few.shown = {8, 8};
+    few.size.drawn = few.size.shown = {8, 8};
     few.longest_loop = 100'000;
     const FrameCosts costs(kCpuUnitCosts, few);
     EXPECT_GT(lightingCost(costs).least, lightingCost(costs).of({{0, 0}, {8, 8}}));

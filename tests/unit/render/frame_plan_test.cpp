@@ -226,7 +226,8 @@ std::string_view brokenStoreRule(const settings::ViewSettings& settings,
     const std::pair<bool, const char*> rules[] = {
         {!p.lists || (local && facts.lists != ListPlace::kNowhere), "lists only of local lights"},
         {!p.lists || settings.renderer != Renderer::kNaive, "naive has no lists"},
-        {has(p, kPairsStep) == (settings.count_pairs && local),
+        {has(p, kPairsStep) == settings.count_pairs &&
+             (!settings.count_pairs || (p.find(kPairsStep)->way != 0) == local),
          "pairs are counted where asked and there are any"},
         {gbuffer || p.gbuffer_output_flags == 0, "no layout without a G-buffer"},
         {!gbuffer || has(p.gbuffer_output_flags, io::kOutputWideGbuffer) ==
@@ -554,9 +555,9 @@ TEST(FramePlan, Exposure_IsMeteredBeforeBloom) {
 TEST(FramePlan, DrawnSize_IsTwiceTheSidesForFourSamples) {
     settings::ViewSettings settings;
     settings.size = {101, 57};
-    EXPECT_EQ(drawnSize(settings), settings.size);
+    EXPECT_EQ(frameSize(settings), (FrameSize{settings.size, settings.size}));
     settings.antialiasing = settings::Antialiasing::kSsaa4;
-    EXPECT_EQ(drawnSize(settings), (settings::Size{202, 114}));
+    EXPECT_EQ(frameSize(settings), (FrameSize{{202, 114}, settings.size}));
 }
 
 TEST(FramePlan, GenericParts_OnlyWiden) {

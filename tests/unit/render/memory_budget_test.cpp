@@ -1,4 +1,4 @@
-#include "render/scene/memory_budget.h"
+#include "render/device/memory_budget.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "interface/constants.h"
 #include "interface/gbuffer_io.h"
 #include "render/frame/plan_words.h"
-#include "render/memory_report.h"
 #include "render/steps/order.h"
+#include "render/view/memory_report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/sample_mean.h"
+#include "render/view/sample_mean.h"
 #include "settings/samples.h"
 
 #include <gtest/gtest.h>

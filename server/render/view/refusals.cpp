@@ -1,4 +1,4 @@
-#include "render/refusals.h"
+#include "render/view/refusals.h"
 
 #include "render/frame/frame_plan.h"
 #include "render/lists/list_limits.h"

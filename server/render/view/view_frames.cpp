@@ -1,9 +1,9 @@
-#include "render/view_frames.h"
+#include "render/view/view_frames.h"
 
 #include "render/frame/fresh_targets.h"
 #include "render/frame/record.h"
-#include "render/memory_need.h"
-#include "render/refusals.h"
+#include "render/view/memory_need.h"
+#include "render/view/refusals.h"
 
 #include <algorithm>
 
@@ -38,32 +38,29 @@ void beginFlight(FrameSlot& slot) {
 
 Result<void> ViewFrames::takeMemory(FrameSlot& slot,
                                     const FramePlan& plan,
-                                    const FrameInputs& asked,
+                                    const FrameSize& size,
                                     const Slots& slots) {
     host_work_.gather(slot.upload, steps_.ofFrame());
-    target_needs_ =
-        targetNeeds(plan, drawnSize(asked.settings), asked.settings.size, targets_.get());
-    FrameMemory frame = frameMemory(host_work_, asked, target_needs_, steps_.ofFrame());
+    target_needs_ = targetNeeds(plan, size, targets_.get());
+    FrameMemory frame = frameMemory(host_work_, slot.inputs, size, target_needs_, steps_.ofFrame());
     letGo(slots, slot, frame);
-    if (auto taken = take(memory_, frame, scene_.shared.device, pictureWords(asked.settings));
+    if (auto taken = take(memory_, frame, scene_.shared.device, pictureWords(slot.inputs.settings));
         !taken) {
-        host_work_.letGo();
+        host_work_.lightWork().letGo();
         return taken;
     }
     // What does not fit goes before anything else is made; frames in flight keep theirs.
-    if (targets_ && !targets_->fits(frame.drawn, frame.shown, target_needs_)) {
+    if (targets_ && !targets_->fits(size, target_needs_)) {
         targets_.reset();
     }
     steps_.freeUnfit(targets_.get());
     return {};
 }
 
-bool ViewFrames::reusesSurfaces(const FramePlan& plan, const FrameInputs& asked) const {
-    const settings::Size drawn = drawnSize(asked.settings);
-    return asked.keep_surfaces && targets_ && !targets_->fresh && leavesSurfaces(plan) &&
+bool ViewFrames::holdsSurfaces(const FramePlan& plan, const FrameSize& size) const {
+    return targets_ && !targets_->fresh && leavesSurfaces(plan) &&
            targets_->surfaces == host_work_.surfaces(plan) &&
-           targets_->fits(drawn, asked.settings.size,
-                          targetNeeds(plan, drawn, asked.settings.size, targets_.get()));
+           targets_->fits(size, targetNeeds(plan, size, targets_.get()));
 }
 
 void ViewFrames::noteDrawn(const FramePlan& plan, const SurfacesDrawn& surfaces) {
@@ -73,16 +70,13 @@ void ViewFrames::noteDrawn(const FramePlan& plan, const SurfacesDrawn& surfaces)
     }
 }
 
-void ViewFrames::prepareTargets(FrameSlot& slot,
-                                const FramePlan& plan,
-                                const settings::Size& drawn,
-                                const settings::Size& shown) {
+void ViewFrames::prepareTargets(FrameSlot& slot, const FramePlan& plan, const FrameSize& size) {
     if (!targets_) {
-        targets_ = std::make_shared<ViewTargets>(scene_.shared.device, drawn, shown, target_needs_);
+        targets_ = std::make_shared<ViewTargets>(scene_.shared.device, size, target_needs_);
     }
     targets_->rastered_in_compute = plan.geometry == SolidGeometry::kComputeIds;
     slot.targets = targets_;
-    slot.makeReadback(scene_.shared.device, readbackBytes(drawn, shown, slot.inputs.keep_radiance));
+    slot.makeReadback(scene_.shared.device, readbackBytes(size, slot.inputs.keep_radiance));
     const bool filtered = plan.uses(Resource::kDisplay);
     writeScreenSet(scene_.shared.device, slot,
                    packedPixels(slot, filtered ? Resource::kDisplay : Resource::kPixels));
@@ -90,20 +84,19 @@ void ViewFrames::prepareTargets(FrameSlot& slot,
 
 void ViewFrames::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameInputs& inputs) {
     slot.stats = {};
-    slot.stats.surfaces_reused = render::reusesSurfaces(plan);
+    slot.stats.surfaces_reused = reusesSurfaces(plan);
     slot.stats.triangle_count = host_work_.draws().triangle_count;
     slot.stats.draw_count = static_cast<uint32_t>(host_work_.draws().commands.size());
     slot.steps.assign(steps_.ofFrame().begin(), steps_.ofFrame().end());
     for (const ActiveStep& active : slot.steps) {
         active.step->addStats(slot.stats);
     }
-    slot.stats.lists = host_work_.listStats();
+    slot.stats.lists = host_work_.lightWork().stats();
     slot.stats.details = details_.update(
         inputs.settings, host_work_.plannedFacts(), plan, scene_.needs,
         *scene_.shared.device.memoryLedger(),
         plan.debug != settings::DebugView::kNone ? &host_work_.debugFrame().legend : nullptr);
-    slot.stats.grid = host_work_.gridStats();
-    slot.stats.pairs.counted = inputs.settings.count_pairs; // without lights: as none
+    slot.stats.grid = host_work_.lightWork().grid().stats();
 }
 
 Result<ViewFrames::Made>
@@ -123,7 +116,7 @@ ViewFrames::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slot
             slot.uses.end();
         }
         if (!recorded) {
-            host_work_.forgetLists();
+            host_work_.lightWork().forgetSeen();
             return recorded.error();
         }
         return *recorded ? Made::kFrame : Made::kHalf;
@@ -159,14 +152,15 @@ Result<bool> ViewFrames::build(const FrameInputs& inputs) {
 
 Result<bool> ViewFrames::recordNow(FrameSlot& slot, const FrameInputs& asked, const Slots& slots) {
     const auto start = Clock::now();
+    const FrameSize size = frameSize(asked.settings);
     FrameInputs inputs = asked;
-    inputs.settings.size = drawnSize(asked.settings);
+    inputs.settings.size = size.drawn;
     const auto built = build(inputs);
     built_us_ += microsSince(start);
     if (!built || !*built) {
         return built;
     }
-    if (auto recorded = recordBuilt(slot, inputs, asked, slots); !recorded) {
+    if (auto recorded = recordBuilt(slot, inputs, size, slots); !recorded) {
         return recorded.error();
     }
     return true;
@@ -174,15 +168,15 @@ Result<bool> ViewFrames::recordNow(FrameSlot& slot, const FrameInputs& asked, co
 
 Result<void> ViewFrames::recordBuilt(FrameSlot& slot,
                                      const FrameInputs& inputs,
-                                     const FrameInputs& asked,
+                                     const FrameSize& size,
                                      const Slots& slots) {
     const auto start = Clock::now();
     FramePlan plan = host_work_.take();
-    if (inputs.settings.list_cap > 0 && plan.lists && host_work_.listStats().overflowed) {
-        return tooManyToCap(host_work_.localLightCount());
+    if (inputs.settings.list_cap > 0 && plan.lists && host_work_.lightWork().stats().overflowed) {
+        return tooManyToCap(static_cast<uint32_t>(host_work_.lightWork().lights().lights.size()));
     }
     const SurfacesDrawn surfaces = host_work_.surfaces(plan);
-    const bool reused = reusesSurfaces(plan, asked);
+    const bool reused = inputs.keep_surfaces && holdsSurfaces(plan, size);
     if (reused) {
         plan.reuse(kSurfaceResources);
     }
@@ -190,16 +184,15 @@ Result<void> ViewFrames::recordBuilt(FrameSlot& slot,
         return begun;
     }
     const WorkLimits limits = this->limits();
-    const FrameCosts costs =
-        host_work_.costs(plan, asked.settings.size, steps_.ofFrame(), unitCosts(), limits);
+    const FrameCosts costs = host_work_.costs(plan, size, steps_.ofFrame(), unitCosts(), limits);
     prices_ = costs.passes();
     if (auto affordable = costs.check(limits.frame, limits.loop); !affordable) {
         return affordable;
     }
-    if (auto taken = takeMemory(slot, plan, asked, slots); !taken) {
+    if (auto taken = takeMemory(slot, plan, size, slots); !taken) {
         return taken;
     }
-    prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
+    prepareTargets(slot, plan, size);
     slot.material_set = host_work_.pose().materialSet();
     host_work_.upload(slot, steps_.ofFrame());
     const Seconds fine = partOf(timeOf(prices_), limits.piece * piece_share_);
@@ -216,7 +209,7 @@ Result<void> ViewFrames::recordBuilt(FrameSlot& slot,
                 piece, fine / piece);
     if (slot.pieces.estimate() > limits.frame) { // with what each piece does again
         markFresh(slot);
-        return tooLongInPieces(asked.settings.size, slot.pieces, limits.frame);
+        return tooLongInPieces(size.shown, slot.pieces, limits.frame);
     }
     noteDrawn(plan, surfaces);
     noteBuilt(slot, plan, inputs);
@@ -250,14 +243,14 @@ RenderedFrame ViewFrames::finish(FrameSlot& slot) {
     }
     slot.stats.frame_us = microsSince(slot.submitted);
     slot.readback->leased = true;
-    const auto& size = slot.targets->shown;
+    const auto& [drawn, shown] = slot.targets->size;
     const PixelView pixels{.data = slot.readback->buffer.mapped,
-                           .width_px = size.width_px,
-                           .height_px = size.height_px,
-                           .stride_bytes = size_t{4} * size.width_px,
+                           .width_px = shown.width_px,
+                           .height_px = shown.height_px,
+                           .stride_bytes = size_t{4} * shown.width_px,
                            .radiance =
                                reinterpret_cast<const float*>(slot.readback->radiance.mapped),
-                           .radiance_samples = slot.targets->size.width_px / size.width_px};
+                           .radiance_samples = drawn.width_px / shown.width_px};
     return {.pixels = PixelLease(pixels, [readback = slot.readback] { readback->leased = false; }),
             .stats = slot.stats};
 }

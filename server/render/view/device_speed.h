@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/error.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "settings/camera.h"
 
 namespace froxel::render {

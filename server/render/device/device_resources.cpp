@@ -1,4 +1,4 @@
-#include "render/scene/device_resources.h"
+#include "render/device/device_resources.h"
 
 #include "area_light_table/table.h"
 #include "gpu/upload.h"

@@ -5,13 +5,13 @@
 #include "cluster/light_assigner.h"
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
+#include "render/device/memory_budget.h"
+#include "render/device/pose_pipelines.h"
+#include "render/device/unit_costs.h"
+#include "render/device/visibility_pipelines.h"
 #include "render/lists/assign_pipelines.h"
 #include "render/pipelines/pipelines.h"
 #include "render/pipelines/typed_store.h"
-#include "render/scene/memory_budget.h"
-#include "render/scene/pose_pipelines.h"
-#include "render/scene/unit_costs.h"
-#include "render/scene/visibility_pipelines.h"
 
 #include <cstdint>
 #include <functional>

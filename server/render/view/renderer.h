@@ -10,9 +10,9 @@
 #include "core/pixel_view.h"
 #include "core/visibility.h"
 #include "gpu/device.h"
+#include "render/device/memory_budget.h"
 #include "render/frame/frame_inputs.h"
 #include "render/lists/list_limits.h"
-#include "render/scene/memory_budget.h"
 #include "scene/scene.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-#include "render/memory_need.h"
+#include "render/view/memory_need.h"
 
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 
 namespace froxel::render {
 
@@ -15,25 +15,24 @@ constexpr uint64_t kSlotBytes = 16 << 10U;
 
 } // namespace
 
-FrameMemory frameMemory(const HostWork& builder,
-                        const FrameInputs& asked,
+FrameMemory frameMemory(const HostWork& host_work,
+                        const FrameInputs& inputs,
+                        const FrameSize& size,
                         const TargetNeeds& targets,
                         std::span<const ActiveStep> steps) {
-    return {.drawn = drawnSize(asked.settings),
-            .shown = asked.settings.size,
+    return {.size = size,
             .targets = targets,
-            .readback =
-                readbackBytes(drawnSize(asked.settings), asked.settings.size, asked.keep_radiance),
-            .lists = builder.listCapacity(),
-            .host_bytes = builder.hostBytes() + asked.beside_bytes,
+            .readback = readbackBytes(size, inputs.keep_radiance),
+            .lists = host_work.lightWork().capacity(),
+            .host_bytes = host_work.hostBytes() + inputs.beside_bytes,
             .steps = steps};
 }
 
 std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& image_bytes) {
     NeedList need(image_bytes);
-    const uint64_t drawn_px = uint64_t{frame.drawn.width_px} * frame.drawn.height_px;
-    const uint64_t packed_bytes = packedBytes(frame.shown);
-    for (const auto& target : targetImages(frame.drawn, frame.targets)) {
+    const uint64_t drawn_px = uint64_t{frame.size.drawn.width_px} * frame.size.drawn.height_px;
+    const uint64_t packed_bytes = packedBytes(frame.size.shown);
+    for (const auto& target : targetImages(frame.size.drawn, frame.targets)) {
         need.image(target.name, target.info);
     }
     need.buffer("depth and id words", frame.targets.compute_raster ? kWordBytes * drawn_px : 0);

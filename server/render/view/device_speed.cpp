@@ -1,4 +1,4 @@
-#include "render/device_speed.h"
+#include "render/view/device_speed.h"
 
 #include "core/clock.h"
 #include "core/keep_for_good.h"

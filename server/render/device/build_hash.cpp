@@ -1,4 +1,4 @@
-#include "render/build_hash.h"
+#include "render/device/build_hash.h"
 
 #include "embedded.h"
 #include "gpu/pipeline_cache.h"

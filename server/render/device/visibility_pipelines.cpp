@@ -1,4 +1,4 @@
-#include "render/scene/visibility_pipelines.h"
+#include "render/device/visibility_pipelines.h"
 
 #include "embedded.h"
 #include "interface/constants.h"

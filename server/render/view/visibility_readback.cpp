@@ -1,4 +1,4 @@
-#include "render/visibility_readback.h"
+#include "render/view/visibility_readback.h"
 
 #include "core/assert.h"
 #include "render/frame/frame_slot.h"
@@ -84,9 +84,9 @@ Visibility copyVisibility(SceneResources& resources,
                           MaterialSet& material_set,
                           const ViewTargets& targets,
                           const scene::Scene& scene) {
-    const size_t count = size_t{targets.size.width_px} * targets.size.height_px;
-    Visibility visibility{targets.size.width_px,
-                          targets.size.height_px,
+    const size_t count = size_t{targets.size.drawn.width_px} * targets.size.drawn.height_px;
+    Visibility visibility{targets.size.drawn.width_px,
+                          targets.size.drawn.height_px,
                           {},
                           {},
                           textureFilter(resources.shared.device)};

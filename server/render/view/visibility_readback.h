@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/visibility.h"
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 #include "scene/scene.h"
 
 namespace froxel::render {

@@ -1,4 +1,4 @@
-#include "render/scene/pose_pipelines.h"
+#include "render/device/pose_pipelines.h"
 
 #include "core/error.h"
 #include "embedded.h"

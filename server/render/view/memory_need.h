@@ -5,7 +5,7 @@
 #include "core/frame_stats.h"
 #include "render/frame/need_list.h"
 #include "render/frame/view_targets.h"
-#include "render/host_work.h"
+#include "render/view/host_work.h"
 #include "settings/settings.h"
 
 #include <cstdint>
@@ -18,8 +18,7 @@
 namespace froxel::render {
 
 struct FrameMemory {
-    settings::Size drawn;
-    settings::Size shown;
+    FrameSize size;
     TargetNeeds targets;
     ReadbackBytes readback;    // of a slot
     uint64_t upload_bytes = 0; // of all slots together
@@ -29,8 +28,9 @@ struct FrameMemory {
 };
 
 // Of a frame that was built and gathered; what slots hold is not yet in it.
-[[nodiscard]] FrameMemory frameMemory(const HostWork& builder,
-                                      const FrameInputs& asked,
+[[nodiscard]] FrameMemory frameMemory(const HostWork& host_work,
+                                      const FrameInputs& inputs,
+                                      const FrameSize& size,
                                       const TargetNeeds& targets,
                                       std::span<const ActiveStep> steps);
 

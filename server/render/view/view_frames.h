@@ -3,10 +3,10 @@
 #pragma once
 
 #include "render/frame/frame_slot.h"
-#include "render/host_work.h"
-#include "render/memory_report.h"
-#include "render/renderer.h"
 #include "render/steps/view_steps.h"
+#include "render/view/host_work.h"
+#include "render/view/memory_report.h"
+#include "render/view/renderer.h"
 
 #include <memory>
 #include <optional>
@@ -45,7 +45,7 @@ class ViewFrames {
     }
     // Whether what the device told of a completed frame's lists lets it be shown.
     [[nodiscard]] bool accepts(const FrameSlot& slot) {
-        return !slot.device_lists || host_work_.acceptLists(*slot.assignment);
+        return !slot.device_lists || host_work_.lightWork().accept(*slot.assignment);
     }
     // The picture of a completed frame and what is known of it. Throws vk::SystemError.
     [[nodiscard]] RenderedFrame finish(FrameSlot& slot);
@@ -79,22 +79,17 @@ class ViewFrames {
     // Throws VariantsMissing besides.
     [[nodiscard]] Result<void> recordBuilt(FrameSlot& slot,
                                            const FrameInputs& inputs,
-                                           const FrameInputs& asked,
+                                           const FrameSize& size,
                                            const Slots& slots);
     // Asks the budget for a frame that was built, before anything is allocated for it. Errors:
     // kCapacity.
-    [[nodiscard]] Result<void> takeMemory(FrameSlot& slot,
-                                          const FramePlan& plan,
-                                          const FrameInputs& asked,
-                                          const Slots& slots);
+    [[nodiscard]] Result<void>
+    takeMemory(FrameSlot& slot, const FramePlan& plan, const FrameSize& size, const Slots& slots);
     // Whether the view's targets hold the surfaces of the frame that was built.
-    [[nodiscard]] bool reusesSurfaces(const FramePlan& plan, const FrameInputs& asked) const;
+    [[nodiscard]] bool holdsSurfaces(const FramePlan& plan, const FrameSize& size) const;
     // What they hold once the frame that was recorded has run.
     void noteDrawn(const FramePlan& plan, const SurfacesDrawn& surfaces);
-    void prepareTargets(FrameSlot& slot,
-                        const FramePlan& plan,
-                        const settings::Size& drawn,
-                        const settings::Size& shown);
+    void prepareTargets(FrameSlot& slot, const FramePlan& plan, const FrameSize& size);
     void noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameInputs& inputs);
 
     SceneResources& scene_;

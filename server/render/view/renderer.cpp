@@ -1,13 +1,13 @@
-#include "render/renderer.h"
+#include "render/view/renderer.h"
 
 #include "core/assert.h"
 #include "gpu/upload.h"
 #include "render/frame/frame_slot.h"
 #include "render/frame/fresh_targets.h"
-#include "render/refusals.h"
 #include "render/scene/scene_resources.h"
-#include "render/view_frames.h"
-#include "render/visibility_readback.h"
+#include "render/view/refusals.h"
+#include "render/view/view_frames.h"
+#include "render/view/visibility_readback.h"
 #include "scene/motion.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "render/memory_report.h"
+#include "render/view/memory_report.h"
 
 #include "render/frame/plan_words.h"
 #include "render/steps/order.h"
