@@ -2,6 +2,8 @@
 // the page, the metrics and the timing files.
 #pragma once
 
+#include "core/step_stats.h"
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -49,28 +51,6 @@ struct GridStats {
     std::string why; // how the automatic grid was chosen, for a person
 };
 
-// How many light evaluations touched a pixel; only where it was asked for.
-struct PairStats {
-    bool counted = false;
-    uint64_t evaluated = 0;    // (light, pixel) pairs that were looped over
-    uint64_t contributing = 0; // of which within the light's radius and cone
-};
-
-// Blended surfaces, layer by layer.
-struct PeelStats {
-    uint32_t layer_count = 0;    // layers drawn; 0: nothing was peeled
-    uint64_t overflow_count = 0; // pixels drawn that have more: the farther ones are left out
-};
-
-// Depths drawn from lights; none: no light had maps.
-struct ShadowStats {
-    uint32_t light_count = 0;
-    uint32_t map_count = 0;    // six for a point light
-    uint32_t reused_count = 0; // of them, that hold what they would show
-    uint32_t draw_count = 0;
-    uint32_t triangle_count = 0; // of casters, sent to the rasteriser
-};
-
 struct MemoryUse {
     std::string purpose;
     uint64_t bytes = 0;
@@ -106,10 +86,7 @@ struct FrameStats {
     uint32_t draw_count = 0;
     LightListStats lists;
     GridStats grid;
-    PairStats pairs;
-    PeelStats peel;
-    ShadowStats shadows;
-    std::optional<double> metered_ev; // stops of exposure besides the one asked for; none: fixed
+    StepStats steps;
     std::shared_ptr<const FrameDetails> details; // another one only when something changed
 };
 

@@ -262,7 +262,7 @@ void Metrics::frameSent(const FrameRecord& record) {
     impl_->sent.Increment();
     impl_->kept.Increment(record.stats.surfaces_reused ? 1 : 0);
     impl_->redraws.Increment(static_cast<double>(record.stats.lists.redraw_count));
-    impl_->peel_overflow.Increment(static_cast<double>(record.stats.peel.overflow_count));
+    impl_->peel_overflow.Increment(record.stats.steps.find("peel", "overflow_pixels").value_or(0));
     for (size_t i = 0; i < kStages.size(); ++i) {
         if (const Micros micros = kStages[i].micros(record)) {
             impl_->stages[i]->Observe(*micros / 1e6);
@@ -271,10 +271,8 @@ void Metrics::frameSent(const FrameRecord& record) {
     for (size_t i = 0; i < kListGauges.size(); ++i) {
         impl_->lists[i]->Set(kListGauges[i].value(record.stats.lists));
     }
-    if (const PairStats& pairs = record.stats.pairs; pairs.counted) {
-        impl_->evaluated.Increment(static_cast<double>(pairs.evaluated));
-        impl_->contributing.Increment(static_cast<double>(pairs.contributing));
-    }
+    impl_->evaluated.Increment(record.stats.steps.find("pairs", "evaluated").value_or(0));
+    impl_->contributing.Increment(record.stats.steps.find("pairs", "contributing").value_or(0));
     impl_->noteDelivery(record);
 }
 

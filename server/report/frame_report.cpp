@@ -38,24 +38,10 @@ Json toJson(const GridStats& grid) {
             {"why", grid.why}};
 }
 
-Json toJson(const PairStats& pairs) {
-    return pairs.counted
-               ? Json{{"evaluated", pairs.evaluated}, {"contributing", pairs.contributing}}
-               : Json(nullptr);
-}
-
-Json toJson(const PeelStats& peel) {
-    return peel.layer_count > 0
-               ? Json{{"layers", peel.layer_count}, {"overflow_pixels", peel.overflow_count}}
-               : Json(nullptr);
-}
-
-Json toJson(const ShadowStats& shadows) {
-    return {{"lights", shadows.light_count},
-            {"maps", shadows.map_count},
-            {"kept", shadows.reused_count},
-            {"draws", shadows.draw_count},
-            {"triangles", shadows.triangle_count}};
+void add(Json& json, const Stat& stat) {
+    const auto& [group, name, field, whole] = *stat.row;
+    Json& object = group.empty() ? json : json[std::string(group)];
+    object[std::string(name)] = whole ? Json(static_cast<uint64_t>(stat.value)) : Json(stat.value);
 }
 
 Json memoryOf(const FrameDetails& details) {
@@ -71,16 +57,17 @@ Json memoryOf(const FrameDetails& details) {
 Json frameReport(const FrameStats& stats) {
     const FrameDetails none;
     const FrameDetails& details = stats.details ? *stats.details : none;
-    Json json = {{"kept", stats.surfaces_reused},      {"triangles", stats.triangle_count},
-                 {"draws", stats.draw_count},          {"grid", toJson(stats.grid)},
-                 {"light_lists", toJson(stats.lists)}, {"pairs", toJson(stats.pairs)},
-                 {"peel", toJson(stats.peel)},         {"plan", details.plan},
+    Json json = {{"kept", stats.surfaces_reused},
+                 {"triangles", stats.triangle_count},
+                 {"draws", stats.draw_count},
+                 {"grid", toJson(stats.grid)},
+                 {"light_lists", toJson(stats.lists)},
+                 {"pairs", nullptr},
+                 {"peel", nullptr},
+                 {"plan", details.plan},
                  {"memory_bytes", memoryOf(details)}};
-    if (stats.shadows.light_count > 0) {
-        json["shadows"] = toJson(stats.shadows);
-    }
-    if (stats.metered_ev) {
-        json["metered_ev"] = *stats.metered_ev;
+    for (const Stat& stat : stats.steps.all()) {
+        add(json, stat);
     }
     return json;
 }

@@ -15,8 +15,7 @@ namespace froxel::report {
 //   peel          {layers, overflow_pixels}: of blended surfaces; null: nothing was peeled
 //   plan          a line each: what the frame's variant leaves out, and why
 //   memory_bytes  {purpose: bytes} of the device's memory
-//   shadows       {lights, maps, draws, triangles}; absent: no light casts any
-//   metered_ev    stops of exposure besides the one asked for; absent: it is fixed
+// And what the steps of the frame tell of themselves (render/frame/step_plan.h: StepRow::stats).
 [[nodiscard]] nlohmann::ordered_json frameReport(const FrameStats& stats);
 
 } // namespace froxel::report

@@ -1,5 +1,6 @@
 #include "session/state_message.h"
 
+#include "core/assert.h"
 #include "froxel/v1/server.pb.h"
 #include "protocol/limits.h"
 #include "scene/motion.h"
@@ -222,6 +223,33 @@ void fillLooks(google::protobuf::RepeatedPtrField<v1::Look>& out, const SessionC
     }
 }
 
+// The row names the header's field. Counts that do not fit are the largest there is.
+void fill(v1::FrameHeader& header, const Stat& stat) {
+    using Field = google::protobuf::FieldDescriptor;
+    google::protobuf::Message* to = &header;
+    const auto field = [&to](std::string_view name) {
+        const Field* found = to->GetDescriptor()->FindFieldByName(std::string(name));
+        FROXEL_ASSERT(found != nullptr, "a StatRow names fields of the schema");
+        return found;
+    };
+    if (!stat.row->group.empty()) {
+        to = to->GetReflection()->MutableMessage(to, field(stat.row->group));
+    }
+    const Field* in = field(stat.row->field);
+    const auto* reflection = to->GetReflection();
+    switch (in->cpp_type()) {
+    case Field::CPPTYPE_UINT32:
+        reflection->SetUInt32(to, in, saturated(static_cast<int64_t>(stat.value)));
+        break;
+    case Field::CPPTYPE_UINT64:
+        reflection->SetUInt64(to, in, static_cast<uint64_t>(stat.value));
+        break;
+    default:
+        reflection->SetDouble(to, in, stat.value);
+        break;
+    }
+}
+
 } // namespace
 
 v1::ServerMessage
@@ -386,22 +414,10 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     if (record.stats.grid.x > 0) {
         fill(*header.mutable_grid(), record.stats.grid);
     }
-    if (record.stats.pairs.counted) {
-        header.mutable_pairs()->set_evaluated(record.stats.pairs.evaluated);
-        header.mutable_pairs()->set_contributing(record.stats.pairs.contributing);
-    }
-    if (const ShadowStats& shadows = record.stats.shadows; shadows.light_count > 0) {
-        header.mutable_shadows()->set_lights(shadows.light_count);
-        header.mutable_shadows()->set_maps(shadows.map_count);
-        header.mutable_shadows()->set_triangles(shadows.triangle_count);
-        header.mutable_shadows()->set_maps_kept(shadows.reused_count);
-    }
-    if (const PeelStats& peel = record.stats.peel; peel.layer_count > 0) {
-        header.mutable_peel()->set_layers(peel.layer_count);
-        header.mutable_peel()->set_overflow_pixels(peel.overflow_count);
-    }
-    if (record.stats.metered_ev) {
-        header.set_metered_ev(*record.stats.metered_ev);
+    for (const Stat& stat : record.stats.steps.all()) {
+        if (!stat.row->field.empty()) {
+            fill(header, stat);
+        }
     }
     fillDelivery(header, record);
     header.set_full_size_us(saturated(record.full_size_us));

@@ -35,8 +35,8 @@ TEST_F(HardShadows, MoreLightsThanMaps_AreExact) {
          {settings::Shadows{1, 512}, {8, 64}, {9, 65}, {32, 64}}) {
         inputs.settings.shadows = shadows;
         const auto pictures = expectExact(renderer, inputs);
-        EXPECT_EQ(pictures.naive.stats.shadows.light_count, shadows.light_count);
-        EXPECT_EQ(pictures.naive.stats.shadows.map_count, 6 * shadows.light_count);
+        EXPECT_EQ(pictures.naive.stats.steps.count("shadows", "lights"), shadows.light_count);
+        EXPECT_EQ(pictures.naive.stats.steps.count("shadows", "maps"), 6 * shadows.light_count);
     }
 }
 
@@ -54,7 +54,7 @@ TEST_F(HardShadows, LightsAnywhere_AreExactAndFinite) {
     inputs.settings.shadows = {32, 100};
     const auto pictures = expectExact(renderer, inputs);
     EXPECT_GT(litPixels(pictures.naive), 500U);
-    EXPECT_GE(pictures.naive.stats.shadows.light_count, 11U);
+    EXPECT_GE(pictures.naive.stats.steps.count("shadows", "lights"), 11U);
 }
 
 // A thousand kilometres away maps and picture are those of the origin, but for the rounding of

@@ -81,8 +81,8 @@ TEST_F(HardTransparency, TwoPanesInOnePlane_AreTwoLayersInTheScenesOrder) {
         for (const Picture* picture : {&pictures.naive, &pictures.deferred}) {
             const auto x = static_cast<uint32_t>(32 - 15 * side_m);
             EXPECT_LT(glm::length(colorAt(*picture, x, 18) - composed(2, 2)), 1e-6);
-            EXPECT_EQ(picture->stats.peel.layer_count, 4U);
-            EXPECT_EQ(picture->stats.peel.overflow_count, 0U);
+            EXPECT_EQ(picture->stats.steps.count("peel", "layers"), 4U);
+            EXPECT_EQ(picture->stats.steps.count("peel", "overflow_pixels"), 0U);
         }
     }
 }
@@ -105,9 +105,9 @@ TEST_F(HardTransparency, FivePanesInOnePlane_FourLayers_AreDeterministicAndCount
         }
     }
     EXPECT_GT(covered, 500U);
-    EXPECT_EQ(four.stats.peel.layer_count, 4U);
-    EXPECT_EQ(four.stats.peel.overflow_count, covered);
-    EXPECT_EQ(five.stats.peel.overflow_count, 0U);
+    EXPECT_EQ(four.stats.steps.count("peel", "layers"), 4U);
+    EXPECT_EQ(four.stats.steps.count("peel", "overflow_pixels"), covered);
+    EXPECT_EQ(five.stats.steps.count("peel", "overflow_pixels"), 0U);
     render::Renderer again(device(), scene);
     EXPECT_EQ(differingFloats(four, draw(again, peeled(4))), 0U);
 }
@@ -118,13 +118,14 @@ TEST_F(HardTransparency, LayersBeyondTheLast_AreCountedPixelByPixel) {
     render::Renderer renderer(device(), scene);
     std::optional<uint64_t> covered;
     for (uint32_t layers = 1; layers <= 16; ++layers) {
-        const auto count = draw(renderer, peeled(layers)).stats.peel.overflow_count;
+        const auto count =
+            draw(renderer, peeled(layers)).stats.steps.count("peel", "overflow_pixels");
         covered = covered.value_or(count);
         EXPECT_EQ(count, layers < kPanes ? *covered : 0U) << layers;
     }
     auto inputs = peeled(4);
     inputs.settings.antialiasing = settings::Antialiasing::kSsaa4;
-    const auto samples = draw(renderer, inputs).stats.peel.overflow_count;
+    const auto samples = draw(renderer, inputs).stats.steps.count("peel", "overflow_pixels");
     EXPECT_NEAR(static_cast<double>(samples), 4.0 * static_cast<double>(*covered),
                 0.1 * 4.0 * static_cast<double>(*covered));
 }
@@ -141,7 +142,7 @@ TEST_F(HardTransparency, PanesInOnePlane_Weighted_AreAveraged) {
         mean += glm::dvec3(glm::vec3(tint(pane).base_color)) / double{kPanes};
     }
     EXPECT_LT(glm::length(colorAt(picture, 32, 18) - mean * (1 - std::pow(0.5, kPanes))), 1e-6);
-    EXPECT_EQ(picture.stats.peel.layer_count, 0U);
+    EXPECT_EQ(picture.stats.steps.count("peel", "layers"), 0U);
 }
 
 } // namespace froxel::test

@@ -160,10 +160,10 @@ TEST_F(DebugViews, Counts_EveryRenderer_AddUpToThePairCounts) {
         const Shown evaluated = show(view, inputs);
         inputs.settings.debug.view = DebugView::kContributingLights;
         const Shown contributing = show(view, inputs);
-        const PairStats& pairs = contributing.stats.pairs;
-        EXPECT_GT(pairs.contributing, 0U);
-        EXPECT_EQ(sum(positions(evaluated)), pairs.evaluated);
-        EXPECT_EQ(sum(positions(contributing)), pairs.contributing);
+        const StepStats& stats = contributing.stats.steps;
+        EXPECT_GT(stats.count("pairs", "contributing"), 0U);
+        EXPECT_EQ(sum(positions(evaluated)), stats.count("pairs", "evaluated"));
+        EXPECT_EQ(sum(positions(contributing)), stats.count("pairs", "contributing"));
 
         inputs.settings.debug.view = DebugView::kFalsePositives;
         const auto shares = positions(show(view, inputs));

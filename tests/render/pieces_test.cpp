@@ -58,10 +58,14 @@ class Pieces : public SharedGpuTest {
         const Picture parts = drawn(cut_view);
         EXPECT_EQ(whole.rgba8, parts.rgba8);
         EXPECT_EQ(differingFloats(whole, parts), 0U);
-        EXPECT_EQ(whole.stats.peel.overflow_count, parts.stats.peel.overflow_count);
-        EXPECT_EQ(whole.stats.metered_ev, parts.stats.metered_ev);
-        EXPECT_EQ(whole.stats.pairs.evaluated, parts.stats.pairs.evaluated);
-        EXPECT_EQ(whole.stats.pairs.contributing, parts.stats.pairs.contributing);
+        EXPECT_EQ(whole.stats.steps.count("peel", "overflow_pixels"),
+                  parts.stats.steps.count("peel", "overflow_pixels"));
+        EXPECT_EQ(whole.stats.steps.find("", "metered_ev"),
+                  parts.stats.steps.find("", "metered_ev"));
+        EXPECT_EQ(whole.stats.steps.count("pairs", "evaluated"),
+                  parts.stats.steps.count("pairs", "evaluated"));
+        EXPECT_EQ(whole.stats.steps.count("pairs", "contributing"),
+                  parts.stats.steps.count("pairs", "contributing"));
         const auto work = cut_view.begin(inputs);
         ASSERT_TRUE(work) << work.error().message;
         EXPECT_GT(work->piece_count, 3U);

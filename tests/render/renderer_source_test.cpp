@@ -1,4 +1,7 @@
+#include "froxel/v1/server.pb.h"
+#include "render/steps/order.h"
 #include "scene/enclosing_sphere.h"
+#include "session/state_message.h"
 #include "stream/renderer_source.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"
@@ -72,6 +75,22 @@ TEST(RendererSource, NoMemoryForAView_IsRefusedAndTheNextOneMayFit) {
     }
     driver.vkCreateDescriptorPool = create_pool;
     EXPECT_TRUE(source->makeView());
+}
+
+// What steps tell of themselves is in the schema, under the names that their rows have.
+TEST(StepRows, Figures_HaveFieldsOfTheHeader) {
+    session::FrameRecord record;
+    uint32_t count = 0;
+    for (const render::StepRow* step : render::kOrder) {
+        for (const StatRow& row : step->stats) {
+            record.stats.steps.set(row, 1);
+            count += row.field.empty() ? 0U : 1U;
+        }
+    }
+    const v1::FrameHeader header = session::makeFrameHeader(record);
+    EXPECT_TRUE(header.has_pairs() && header.has_peel() && header.has_shadows() &&
+                header.has_metered_ev());
+    EXPECT_EQ(count, 9U);
 }
 
 } // namespace

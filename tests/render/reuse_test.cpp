@@ -246,8 +246,8 @@ TEST_F(Reuse, ShadowMaps_OfLightsThatRest_AreDrawnOnce) {
     const auto expect = [&](uint32_t maps, uint32_t kept) {
         asked.time_s += 0.1;
         const Picture picture = expectAsAnew(view, asked);
-        EXPECT_EQ(picture.stats.shadows.map_count, maps);
-        EXPECT_EQ(picture.stats.shadows.reused_count, kept);
+        EXPECT_EQ(picture.stats.steps.count("shadows", "maps"), maps);
+        EXPECT_EQ(picture.stats.steps.count("shadows", "kept"), kept);
         EXPECT_EQ(hasPass(picture, "shadows"), kept < maps);
     };
     place();
@@ -280,7 +280,7 @@ TEST_F(Reuse, ShadowMaps_OfLightsThatRest_AreDrawnOnce) {
     asked.settings.lights.count = 3; // which move
     expect(19, 0);
     asked.time_s += 0.1;
-    const uint32_t kept = expectAsAnew(view, asked).stats.shadows.reused_count;
+    const uint64_t kept = expectAsAnew(view, asked).stats.steps.count("shadows", "kept");
     EXPECT_GE(kept, 1U); // the spot's, and what shows nothing
     EXPECT_LT(kept, 19U);
 }

@@ -299,18 +299,19 @@ TEST_F(Shading, CountPairs_ListsOrAllLights_AgreeOnWhatContributes) {
         SCOPED_TRACE(nameOf(kind));
         auto inputs = inputsFor(scene.cameras[0].camera, kind);
         inputs.settings.lights.count = 99;
-        EXPECT_FALSE(draw(view, inputs).stats.pairs.counted);
+        EXPECT_FALSE(draw(view, inputs).stats.steps.find("pairs", "evaluated"));
         inputs.settings.count_pairs = true;
-        const PairStats lists = draw(view, inputs).stats.pairs;
+        const StepStats lists = draw(view, inputs).stats.steps;
         inputs.settings.light_loop = LightLoop::kAllLights;
-        const PairStats all = draw(view, inputs).stats.pairs;
-        EXPECT_TRUE(lists.counted);
-        EXPECT_GT(lists.contributing, 0U);
-        EXPECT_EQ(lists.contributing, all.contributing);
-        EXPECT_LE(lists.contributing, lists.evaluated);
-        EXPECT_LT(lists.evaluated, all.evaluated);
-        EXPECT_EQ(all.evaluated % 100, 0U); // lights times pixels
-        EXPECT_LE(all.evaluated, 100U * 96 * 54);
+        const StepStats all = draw(view, inputs).stats.steps;
+        const uint64_t contributing = lists.count("pairs", "contributing");
+        EXPECT_GT(contributing, 0U);
+        EXPECT_EQ(contributing, all.count("pairs", "contributing"));
+        EXPECT_LE(contributing, lists.count("pairs", "evaluated"));
+        const uint64_t evaluated = all.count("pairs", "evaluated");
+        EXPECT_LT(lists.count("pairs", "evaluated"), evaluated);
+        EXPECT_EQ(evaluated % 100, 0U); // lights times pixels
+        EXPECT_LE(evaluated, 100U * 96 * 54);
     }
 }
 
@@ -321,10 +322,9 @@ TEST_F(Shading, CountPairs_NoLights_CountsNone) {
         inputsFor(settings::lookAt({0, 4, 1}, {0, 0, 0}, {0, 1, 0}), Renderer::kForwardPlus);
     inputs.settings.lights.count = 0;
     inputs.settings.count_pairs = true;
-    const PairStats pairs = draw(renderer, inputs).stats.pairs;
-    EXPECT_TRUE(pairs.counted);
-    EXPECT_EQ(pairs.evaluated, 0U);
-    EXPECT_EQ(pairs.contributing, 0U);
+    const StepStats stats = draw(renderer, inputs).stats.steps;
+    EXPECT_EQ(stats.find("pairs", "evaluated"), 0.0);
+    EXPECT_EQ(stats.find("pairs", "contributing"), 0.0);
 }
 
 } // namespace froxel::test

@@ -89,7 +89,7 @@ TEST_F(Shadows, APlane_HasNoAcneAtAnyAngle) {
             inputs.settings.shadows = {};
             EXPECT_EQ(differingFloats(with, draw(view, inputs)), 0U)
                 << "angle " << i << ", size " << size_px;
-            EXPECT_EQ(with.stats.shadows.light_count, 2U);
+            EXPECT_EQ(with.stats.steps.count("shadows", "lights"), 2U);
             lit += litPixels(with);
         }
     }
@@ -217,7 +217,7 @@ TEST_F(Shadows, ListsStagesAndLoops_AreExact) {
                 SCOPED_TRACE(settings::kRendererNames[kind]);
                 inputs.settings.renderer = static_cast<Renderer>(kind);
                 const Picture usual = draw(view, inputs);
-                EXPECT_EQ(usual.stats.shadows.light_count, 20U);
+                EXPECT_EQ(usual.stats.steps.count("shadows", "lights"), 20U);
                 EXPECT_EQ(differingFloats(usual, draw(view, inputs)), 0U);
                 for (const auto part : {render::GenericParts{.plain_loops = true},
                                         render::GenericParts{.uncut_loops = true},
@@ -248,13 +248,13 @@ TEST_F(Shadows, WhereNoneAreAskedForOrSeen_NothingIsThere) {
     for (const auto& made : renderer.resources().shared.pipelines.made()) {
         EXPECT_EQ(made.key.light_flags & io::kLightShadows, 0U);
     }
-    EXPECT_EQ(without.stats.shadows.map_count, 0U);
+    EXPECT_EQ(without.stats.steps.count("shadows", "maps"), 0U);
     EXPECT_FALSE(hasPass(without, "shadows"));
     inputs.settings.shadows = {32, 128};
     const Picture with = draw(view, inputs);
-    EXPECT_EQ(with.stats.shadows.light_count, 32U);
-    EXPECT_EQ(with.stats.shadows.map_count, 192U);
-    EXPECT_GT(with.stats.shadows.triangle_count, 0U);
+    EXPECT_EQ(with.stats.steps.count("shadows", "lights"), 32U);
+    EXPECT_EQ(with.stats.steps.count("shadows", "maps"), 192U);
+    EXPECT_GT(with.stats.steps.count("shadows", "triangles"), 0U);
     EXPECT_TRUE(hasPass(with, "shadows"));
     EXPECT_GT(differingFloats(without, with), 0U);
     EXPECT_GE(device().memoryLedger()->byPurpose().at("shadow atlas"), 192U * 128 * 128 * 4);
@@ -270,7 +270,7 @@ TEST_F(Shadows, WhereNoneAreAskedForOrSeen_NothingIsThere) {
     const Picture dark = draw(view, inputs);
     inputs.settings.shadows = {4, 128};
     const Picture unseen = draw(view, inputs);
-    EXPECT_EQ(unseen.stats.shadows.light_count, 0U);
+    EXPECT_EQ(unseen.stats.steps.count("shadows", "lights"), 0U);
     EXPECT_EQ(differingFloats(dark, unseen), 0U);
 }
 
@@ -504,7 +504,7 @@ TEST_F(Shadows, ThirtyTwoLights_EachHaveTheirOwn) {
         }
     }
     const Picture all = drawnWith(lights);
-    EXPECT_EQ(all.stats.shadows.light_count, 32U);
+    EXPECT_EQ(all.stats.steps.count("shadows", "lights"), 32U);
     for (size_t j = 0; j < sum.size(); ++j) {
         ASSERT_NEAR(static_cast<double>(all.radiance[j]), sum[j], 1e-4 * (sum[j] + 0.01)) << j;
     }
@@ -517,7 +517,7 @@ TEST_F(Shadows, ASpot_IsDarkBehindWhatBlocksIt) {
         maker.spot({0, 3, 0}, {0.02, -1, 0.01}, 12, outer_deg * 0.9, outer_deg);
         const auto inputs = inputsFrom({0, 2, 6}, {0, 0, 0}, {1, 256});
         const Picture picture = drawn(maker.scene, inputs, device());
-        EXPECT_EQ(picture.stats.shadows.map_count, outer_deg <= 60 ? 1U : 6U);
+        EXPECT_EQ(picture.stats.steps.count("shadows", "maps"), outer_deg <= 60 ? 1U : 6U);
         EXPECT_EQ(lightAt(picture, inputs.settings, {0.2, 0, 0.2}), 0) << outer_deg;
         EXPECT_EQ(lightAt(picture, inputs.settings, {-0.3, 0, 0}), 0) << outer_deg;
         if (outer_deg > 20) {

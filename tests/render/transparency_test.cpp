@@ -168,7 +168,7 @@ TEST_F(TransparencyTest, Peeled_CrossingPanes_AreAsSortedInDouble) {
         const auto errors = errorsOf(picture, crossing, inputs.settings.camera);
         EXPECT_GT(errors.pixel_count, size_t{kSize.width_px} * kSize.height_px / 2);
         EXPECT_LT(errors.max, 2e-6);
-        EXPECT_EQ(picture.stats.peel.overflow_count, 0U);
+        EXPECT_EQ(picture.stats.steps.count("peel", "overflow_pixels"), 0U);
     }
 }
 
@@ -310,7 +310,7 @@ TEST_F(TransparencyTest, WhatAFrameDoesNotBlend_HasNeitherPassNorMemory) {
     for (int i = 0; i < 3; ++i) {
         const Picture none = draw(view, inputs);
         EXPECT_FALSE(hasPass(none, "peel") || hasPass(none, "blend_resolve"));
-        EXPECT_EQ(none.stats.peel.layer_count, 0U);
+        EXPECT_EQ(none.stats.steps.count("peel", "layers"), 0U);
     }
     EXPECT_THAT(memory(), Not(Contains(Key("blended sums"))));
 }

@@ -71,7 +71,12 @@ void fillStats(FrameStats& stats, const settings::ViewSettings& settings) {
     stats.lists.bytes = 184;
     const settings::GridSize& size = settings.grid.size;
     stats.grid = {size.x, size.y, size.z, 32, 24, 0.5, 40, settings.grid.automatic, "a fake"};
-    stats.pairs = {settings.count_pairs, 1000, 250};
+    if (settings.count_pairs) {
+        static constexpr StatRow kEvaluated{"pairs", "evaluated", "evaluated"};
+        static constexpr StatRow kContributing{"pairs", "contributing", "contributing"};
+        stats.steps.set(kEvaluated, 1000);
+        stats.steps.set(kContributing, 250);
+    }
 }
 
 uint64_t areaOf(const settings::Size& size) {

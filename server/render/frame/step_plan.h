@@ -3,12 +3,14 @@
 #pragma once
 
 #include "core/error.h"
+#include "core/step_stats.h"
 #include "render/frame/uses.h"
 #include "settings/settings.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -71,6 +73,8 @@ struct StepRow {
     // What it takes memory for, in words for people; none: for nothing of these settings. Null: for
     // nothing to speak of.
     std::optional<std::string> (*memory_words)(const settings::ViewSettings& settings) = nullptr;
+    // What it tells of a frame besides its times.
+    std::span<const StatRow> stats = {};
     // Whether it looks lights up where there is no surface. Null: never.
     bool (*lights_medium)(const settings::ViewSettings& settings) = nullptr;
 };

@@ -28,6 +28,12 @@ using LoadOp = vk::AttachmentLoadOp;
 using Stage = vk::PipelineStageFlagBits2;
 using settings::Transparency;
 
+// Layers that were peeled, and pixels that have more: the farther ones are left out.
+constexpr std::array kPeelStats = {StatRow{"peel", "layers", "layers"},
+                                   StatRow{"peel", "overflow_pixels", "overflow_pixels"}};
+constexpr const StatRow& kLayers = kPeelStats[0];
+constexpr const StatRow& kOverflow = kPeelStats[1];
+
 // Of StepPlan::way.
 constexpr uint32_t kOverUnlit = 1U << 0U; // what is blended may be before colours of the display
 constexpr uint32_t kWeighted = 1U << 1U;
@@ -135,7 +141,12 @@ class Blended final : public Step {
             }
         }
     }
-    void addStats(FrameStats& stats) const override { stats.peel.layer_count = layer_count_; }
+    void addStats(FrameStats& stats) const override {
+        if (layer_count_ > 0) {
+            stats.steps.set(kLayers, layer_count_);
+            stats.steps.set(kOverflow, 0);
+        }
+    }
 
     void freeUnfit(const ViewTargets* view) override {
         if (targets_ &&
@@ -148,7 +159,8 @@ class Blended final : public Step {
     void record(const FrameContext& frame) const override;
     void addResults(const FrameSlot& slot, FrameStats& stats) const override {
         if (counts_overflow_) {
-            stats.peel.overflow_count = slot.stored.get<PeelOverflow>().counter.read();
+            stats.steps.set(kOverflow,
+                            static_cast<double>(slot.stored.get<PeelOverflow>().counter.read()));
         }
     }
 
@@ -389,6 +401,7 @@ const StepRow kBlendedStep{.name = pass::kTransparent,
                            .plan = planOfBlended,
                            .uses = usesOfBlended,
                            .words = wordsOfBlended,
-                           .make = makeStep<Blended>};
+                           .make = makeStep<Blended>,
+                           .stats = kPeelStats};
 
 } // namespace froxel::render

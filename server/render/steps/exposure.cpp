@@ -25,6 +25,10 @@ using Access = vk::AccessFlagBits2;
 using Stage = vk::PipelineStageFlagBits2;
 using Type = vk::DescriptorType;
 
+// Stops besides the exposure that was asked for.
+constexpr std::array kMetered = {
+    StatRow{.group = "", .name = "metered_ev", .field = "metered_ev", .whole = false}};
+
 constexpr vk::DeviceSize kCountBytes = io::kMeterBins * sizeof(uint32_t);
 
 vk::raii::DescriptorSetLayout makeExposureSetLayout(const gpu::Device& device) {
@@ -167,8 +171,8 @@ void Exposure::addResults(const FrameSlot& slot, FrameStats& stats) const {
     float exposure = 0;
     std::memcpy(&exposure, slot.upload.mapped() + slot.stored.get<ExposureSet>().exposure_offset,
                 sizeof(exposure));
-    stats.metered_ev = std::log2(static_cast<double>(exposure) /
-                                 static_cast<double>(slot.inputs.settings.exposure));
+    stats.steps.set(kMetered[0], std::log2(static_cast<double>(exposure) /
+                                           static_cast<double>(slot.inputs.settings.exposure)));
 }
 
 void Exposure::bind(const FrameContext& frame, SharedPipeline& pipeline) {
@@ -215,6 +219,7 @@ const StepRow kExposureStep{
                                                  "a histogram of its luminance"
                                                : "");
         },
-    .make = makeStep<Exposure>};
+    .make = makeStep<Exposure>,
+    .stats = kMetered};
 
 } // namespace froxel::render

@@ -19,6 +19,12 @@ namespace froxel::render {
 
 namespace {
 
+// (light, pixel) pairs that were looped over, and those within the light's radius and cone.
+constexpr std::array kPairStats = {StatRow{"pairs", "evaluated", "evaluated"},
+                                   StatRow{"pairs", "contributing", "contributing"}};
+constexpr const StatRow& kEvaluated = kPairStats[0];
+constexpr const StatRow& kContributing = kPairStats[1];
+
 constexpr uint32_t kLit = 1U << 0U; // of StepPlan::way: there is something to count
 
 vk::raii::DescriptorSetLayout pairSetLayout(const gpu::Device& device) {
@@ -32,8 +38,8 @@ vk::raii::DescriptorPool makePairPool(const gpu::Device& device) {
     return gpu::makeDescriptorPool(device, std::array{size});
 }
 
-uint64_t join(uint32_t low, uint32_t high) {
-    return uint64_t{high} << 32U | low;
+double join(uint32_t low, uint32_t high) {
+    return static_cast<double>(uint64_t{high} << 32U | low);
 }
 
 // Shared by every view.
@@ -111,7 +117,10 @@ class Pairs final : public Step {
                                                  scene_.shared.stored<PairPipelines>().setLayout());
     }
     // Without lights: as none.
-    void addStats(FrameStats& stats) const override { stats.pairs.counted = true; }
+    void addStats(FrameStats& stats) const override {
+        stats.steps.set(kEvaluated, 0);
+        stats.steps.set(kContributing, 0);
+    }
     void record(const FrameContext& frame) const override {
         if (!lit()) {
             return;
@@ -127,9 +136,8 @@ class Pairs final : public Step {
         }
         io::PairCounts counts{};
         std::memcpy(&counts, slot.stored.get<PairCounts>().buffer.mapped, sizeof(counts));
-        stats.pairs = {.counted = true,
-                       .evaluated = join(counts.evaluated_low, counts.evaluated_high),
-                       .contributing = join(counts.contributing_low, counts.contributing_high)};
+        stats.steps.set(kEvaluated, join(counts.evaluated_low, counts.evaluated_high));
+        stats.steps.set(kContributing, join(counts.contributing_low, counts.contributing_high));
     }
 
   private:
@@ -170,6 +178,7 @@ const StepRow kPairsStep{
                                    ? "a separate pass counts (light, pixel) pairs"
                                    : "");
         },
-    .make = makeStep<Pairs>};
+    .make = makeStep<Pairs>,
+    .stats = kPairStats};
 
 } // namespace froxel::render

@@ -301,13 +301,6 @@ void ShadowFrame::clear() {
     triangle_count = 0;
 }
 
-ShadowStats ShadowFrame::stats() const {
-    return {.light_count = static_cast<uint32_t>(lights.size()),
-            .map_count = static_cast<uint32_t>(faces.size()),
-            .draw_count = static_cast<uint32_t>(commands.size()),
-            .triangle_count = triangle_count};
-}
-
 ShadowPlace shadowPlace(const light::LightRig::Place& place, double reach_m, uint32_t size_px) {
     const auto size = static_cast<double>(size_px);
     ShadowPlace out{.position_world = place.position_world, .reach_m = reach_m};

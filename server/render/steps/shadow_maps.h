@@ -46,7 +46,6 @@ struct ShadowFrame {
     uint32_t triangle_count = 0;
 
     void clear();
-    [[nodiscard]] ShadowStats stats() const;
 };
 
 // Where a light with maps stands, in the world.

@@ -30,6 +30,13 @@ using Access = vk::AccessFlagBits2;
 using Stage = vk::PipelineStageFlagBits2;
 using Type = vk::DescriptorType;
 
+// Lights with maps; maps, six for a point light; those of them that hold what they would show; and
+// casters, as they are sent to the rasteriser.
+constexpr std::array kShadowStats = {
+    StatRow{"shadows", "lights", "lights"}, StatRow{"shadows", "maps", "maps"},
+    StatRow{"shadows", "kept", "maps_kept"}, StatRow{"shadows", "draws", ""},
+    StatRow{"shadows", "triangles", "triangles"}};
+
 // A lookup of a light at a pixel. Measured on lavapipe on two cores and on an H200.
 constexpr Measured<double> kShadowPair{6e-8, 3e-11};
 
@@ -153,8 +160,15 @@ class Shadows final : public Step {
     }
     void gather(FrameUpload& upload, FrameBlocks& blocks) override;
     void addStats(FrameStats& stats) const override {
-        stats.shadows = frame_.stats();
-        stats.shadows.reused_count = static_cast<uint32_t>(frame_.faces.size() - changed_.size());
+        if (frame_.lights.empty()) {
+            return;
+        }
+        const std::array<size_t, kShadowStats.size()> values = {
+            frame_.lights.size(), frame_.faces.size(), frame_.faces.size() - changed_.size(),
+            frame_.commands.size(), frame_.triangle_count};
+        for (size_t i = 0; i < values.size(); ++i) {
+            stats.steps.set(kShadowStats[i], static_cast<double>(values[i]));
+        }
     }
 
     void freeUnfit(const ViewTargets* /*view*/) override {
@@ -407,7 +421,8 @@ const StepRow kShadowsStep{.name = pass::kShadows,
                            .make = makeStep<Shadows>,
                            .looks = looks,
                            .able = ableTo,
-                           .memory_words = memoryWordsOfShadows};
+                           .memory_words = memoryWordsOfShadows,
+                           .stats = kShadowStats};
 
 ShadowAtlas copyShadows(const ViewSteps& steps) {
     const Step* shadows = steps.find(kShadowsStep);

@@ -91,7 +91,7 @@ Result<Drawn> draw(ViewRenderer& view, const FrameInputs& inputs) {
                               passes_s ? secondsOf(stats.passes, pass::kLighting).value() : frame_s,
                           .all_s = passes_s.value_or(frame_s),
                           .estimate_s = work->estimate.count(),
-                          .pairs = static_cast<double>(stats.pairs.evaluated)};
+                          .pairs = stats.steps.find("pairs", "evaluated").value_or(0)};
         best = all_s.empty() || drawn.all_s < best.all_s ? drawn : best;
         all_s.push_back(drawn.all_s);
     }

@@ -177,9 +177,10 @@ TEST(Metrics, Delivery_IsCountedByWhatFramesWereMadeWith) {
 TEST(Metrics, Pairs_OnlyOfFramesThatCountedThem) {
     Metrics metrics;
     auto record = aRecord();
-    record.stats.pairs = {true, 100, 40};
+    static constexpr StatRow kEvaluated{"pairs", "evaluated", "evaluated"};
+    record.stats.steps.set(kEvaluated, 100);
     metrics.frameSent(record);
-    record.stats.pairs.counted = false;
+    record.stats.steps = {};
     metrics.frameSent(record);
     EXPECT_THAT(metrics.text(), HasSubstr("froxel_light_pairs_total{kind=\"evaluated\"} 100\n"));
 }
@@ -189,7 +190,8 @@ TEST(Metrics, PeeledPictures_AddUpPixelsWithMoreLayers) {
     auto record = aRecord();
     metrics.frameSent(record);
     EXPECT_THAT(metrics.text(), HasSubstr("froxel_peel_overflow_pixels_total 0\n"));
-    record.stats.peel = {4, 70};
+    static constexpr StatRow kOverflow{"peel", "overflow_pixels", "overflow_pixels"};
+    record.stats.steps.set(kOverflow, 70);
     metrics.frameSent(record);
     metrics.frameSent(record);
     EXPECT_THAT(metrics.text(), HasSubstr("froxel_peel_overflow_pixels_total 140\n"));
