@@ -3,22 +3,17 @@
 #include "render/view/memory_need.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
+#include "support/step_frames.h"
 #include "support/test_scenes.h"
 
-#include <functional>
 #include <utility>
+#include <vector>
 
 namespace froxel::test {
 
 namespace {
 
 using render::FrameInputs;
-using Change = std::function<void(FrameInputs&)>;
-
-struct Named {
-    const char* name;
-    Change change;
-};
 
 FrameInputs small() {
     FrameInputs inputs;
@@ -27,42 +22,15 @@ FrameInputs small() {
     return inputs;
 }
 
-const std::vector<Named> kFrames = {
-    {"default", [](FrameInputs&) {}},
+// Besides those of every step.
+const std::vector<StepFrame> kFrames = {
     {"odd size",
      [](FrameInputs& f) {
          f.settings.size = {1333, 377};
      }},
     {"many lights", [](FrameInputs& f) { f.settings.lights.count = 2'000; }},
-    {"forward", [](FrameInputs& f) { f.settings.renderer = settings::Renderer::kForwardPlus; }},
-    {"forward in compute",
-     [](FrameInputs& f) {
-         f.settings.renderer = settings::Renderer::kForwardPlus;
-         f.settings.lighting = settings::LightingStage::kCompute;
-     }},
     {"wide gbuffer",
      [](FrameInputs& f) { f.settings.gbuffer.position = settings::PositionSource::kFp32; }},
-    {"bloom by mips",
-     [](FrameInputs& f) { f.settings.bloom.kind = settings::BloomKind::kMipChain; }},
-    {"separable bloom",
-     [](FrameInputs& f) { f.settings.bloom.kind = settings::BloomKind::kSeparable; }},
-    {"four samples",
-     [](FrameInputs& f) { f.settings.antialiasing = settings::Antialiasing::kSsaa4; }},
-    {"fxaa", [](FrameInputs& f) { f.settings.antialiasing = settings::Antialiasing::kFxaa; }},
-    {"metered exposure",
-     [](FrameInputs& f) { f.settings.exposure_mode = settings::ExposureMode::kFrame; }},
-    {"fog", [](FrameInputs& f) { f.settings.fog.density = 0.05F; }},
-    {"studio",
-     [](FrameInputs& f) {
-         f.settings.environment = {settings::EnvironmentLight::kStudio, 0, 1, true};
-     }},
-    {"shadows", [](FrameInputs& f) { f.settings.shadows = {.light_count = 4, .size_px = 64}; }},
-    {"weighted",
-     [](FrameInputs& f) { f.settings.transparency = settings::Transparency::kWeighted; }},
-    {"peeled", [](FrameInputs& f) { f.settings.transparency = settings::Transparency::kPeeled; }},
-    {"lists on the device",
-     [](FrameInputs& f) { f.assignment = render::AssignmentPlace::kDevice; }},
-    {"raster in compute", [](FrameInputs& f) { f.geometry = render::GeometryPath::kVisibility; }},
 };
 
 } // namespace
@@ -95,7 +63,9 @@ class MemoryNeed : public SharedGpuTest {
 
 TEST_F(MemoryNeed, EveryKindOfFrame_TakesWhatWasSaidAndHardlyLess) {
     render::Renderer renderer(device(), *scene_);
-    for (const auto& [name, change] : kFrames) {
+    std::vector<StepFrame> frames(stepFrames().begin(), stepFrames().end());
+    frames.insert(frames.end(), kFrames.begin(), kFrames.end());
+    for (const auto& [name, change] : frames) {
         FrameInputs inputs = small();
         inputs.settings.camera = scene_->cameras.at(0).camera;
         change(inputs);

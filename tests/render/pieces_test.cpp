@@ -6,6 +6,7 @@
 #include "render/view/renderer.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
+#include "support/step_frames.h"
 #include "support/test_scenes.h"
 
 #include <functional>
@@ -194,37 +195,14 @@ TEST_F(Pieces, ListsOfAnyGrid_DrawTheSameBits) {
     }
 }
 
-TEST_F(Pieces, Effects_DrawTheSameBits) {
-    const std::pair<const char*, Change> cases[] = {
-        {"fog", [](auto& in) { in.settings.fog.density = 0.05F; }},
-        {"shadows",
-         [](auto& in) {
-             in.settings.shadows.light_count = 6;
-             in.settings.shadows.size_px = 64;
-             in.settings.lights.radius_m = 6;
-         }},
-        {"studio",
-         [](auto& in) {
-             in.settings.environment = {settings::EnvironmentLight::kStudio, 0, 1, true};
-         }},
-        {"bloom, one pass",
-         [](auto& in) { in.settings.bloom.kind = settings::BloomKind::kSinglePass; }},
-        {"bloom, separable",
-         [](auto& in) { in.settings.bloom.kind = settings::BloomKind::kSeparable; }},
-        {"bloom, a trous", [](auto& in) { in.settings.bloom.kind = settings::BloomKind::kATrous; }},
-        {"bloom, mip chain",
-         [](auto& in) { in.settings.bloom.kind = settings::BloomKind::kMipChain; }},
-        {"metered exposure",
-         [](auto& in) { in.settings.exposure_mode = settings::ExposureMode::kFrame; }},
-        {"fxaa", [](auto& in) { in.settings.antialiasing = settings::Antialiasing::kFxaa; }},
-        {"ssaa4", [](auto& in) { in.settings.antialiasing = settings::Antialiasing::kSsaa4; }},
-        {"pairs", [](auto& in) { in.settings.count_pairs = true; }},
-    };
-    for (const auto& [name, change] : cases) {
+TEST_F(Pieces, FramesOfEveryStep_DrawTheSameBits) {
+    for (const auto& [name, change] : stepFrames()) {
         SCOPED_TRACE(name);
         auto asked = inputs();
         change(asked);
-        expectSame(asked);
+        const bool radiance = !settings::replacesPicture(asked.settings.debug.view);
+        asked.keep_radiance = false; // expectSame() asks for it
+        expectSame(asked, radiance);
     }
 }
 
