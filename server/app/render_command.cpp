@@ -17,8 +17,6 @@
 #include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -27,8 +25,10 @@ namespace froxel::app {
 
 namespace {
 
-bool wantsRadiance(const RenderOptions& options) {
-    return !options.out.empty() && encode::isRadiance(encode::imageFormatOf(options.out).value());
+// That the picture's file is made of; none: pixels.
+Outputs outputsOf(const RenderOptions& options) {
+    return options.out.empty() ? Outputs{}
+                               : encode::outputsOf(encode::imageFormatOf(options.out).value());
 }
 
 // A picture to be written.
@@ -52,15 +52,6 @@ render::RenderedFrame draw(render::ViewRenderer& viewer, const render::FrameInpu
     return std::move(viewer.collect()).value();
 }
 
-// Adds a share of a picture to others.
-void addTo(LinearImage& sum, const LinearImage& picture, float share) {
-    sum.width_px = picture.width_px;
-    sum.height_px = picture.height_px;
-    sum.rgb.resize(picture.rgb.size());
-    std::transform(sum.rgb.begin(), sum.rgb.end(), picture.rgb.begin(), sum.rgb.begin(),
-                   [share](float a, float b) { return std::fma(b, share, a); });
-}
-
 // In as many frames as it takes, each of which is timed.
 Still drawStill(render::ViewRenderer& viewer,
                 render::FrameInputs inputs,
@@ -78,7 +69,7 @@ Still drawStill(render::ViewRenderer& viewer,
         if (count > 1) {
             mean.add(still.frame.pixels.view());
         }
-        if (inputs.keep_radiance) {
+        if (!inputs.outputs.none()) {
             addTo(still.linear, radianceOf(still.frame.pixels.view()),
                   1.0F / static_cast<float>(count));
         }
@@ -90,7 +81,7 @@ Still drawStill(render::ViewRenderer& viewer,
 }
 
 void writePicture(const RenderOptions& options, const Still& still) {
-    if (wantsRadiance(options)) {
+    if (!outputsOf(options).none()) {
         encode::writeRadiance(options.out, still.linear).value();
     } else {
         encode::writeImage(options.out, still.pixels(), options.encoding).value();
@@ -126,7 +117,7 @@ Still drawAll(const RenderOptions& options,
     for (uint32_t i = 0; i < options.frame_count; ++i) {
         inputs.time_s = run.time_s + i * run.step_s;
         inputs.playing = playback.at(run.time_s + i * report::kFrameStepS);
-        inputs.keep_radiance = wantsRadiance(options) && i + 1 == options.frame_count;
+        inputs.outputs = i + 1 == options.frame_count ? outputsOf(options) : Outputs{};
         last = drawStill(viewer, inputs, run.frames);
     }
     return last;

@@ -68,7 +68,7 @@ Result<Pictures::Shared> Pictures::drawFrame(const settings::ViewSettings& setti
                                              double time_s) {
     render::ViewRenderer viewer(renderer_);
     render::FrameInputs inputs{.settings = settings, .time_s = time_s};
-    inputs.keep_radiance = true;
+    inputs.outputs = {Output::kRadiance};
     // As naive is drawn: a GPU's texture unit may round a sample by whether the pixels beside it
     // passed the depth test (docs/figures/error.md), which says nothing of assignment or of the
     // loop's order.

@@ -3,6 +3,8 @@
 
 #include "core/pixel_view.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,14 +20,15 @@ struct LinearImage {
 
 // A copy of the picture's radiance, which it has: of each pixel the mean of its samples.
 [[nodiscard]] inline LinearImage radianceOf(const PixelView& picture) {
-    const size_t samples = picture.radiance_samples;
+    const size_t samples = picture.output_samples;
     const float share = 1.0F / static_cast<float>(samples * samples);
     const size_t row_floats = samples * picture.width_px * 4;
+    const float* radiance = picture.output(Output::kRadiance);
     LinearImage image{picture.width_px, picture.height_px, {}};
     image.rgb.reserve(size_t{picture.width_px} * picture.height_px * 3);
     for (size_t y = 0; y < picture.height_px; ++y) {
         for (size_t x = 0; x < picture.width_px; ++x) {
-            const float* first = picture.radiance + samples * (y * row_floats + x * 4);
+            const float* first = radiance + samples * (y * row_floats + x * 4);
             for (size_t channel = 0; channel < 3; ++channel) {
                 float sum = 0;
                 for (size_t sample = 0; sample < samples * samples; ++sample) {
@@ -36,6 +39,15 @@ struct LinearImage {
         }
     }
     return image;
+}
+
+// Adds a share of a picture to others of its size, or to none.
+inline void addTo(LinearImage& sum, const LinearImage& picture, float share) {
+    sum.width_px = picture.width_px;
+    sum.height_px = picture.height_px;
+    sum.rgb.resize(picture.rgb.size());
+    std::transform(sum.rgb.begin(), sum.rgb.end(), picture.rgb.begin(), sum.rgb.begin(),
+                   [share](float a, float b) { return std::fma(b, share, a); });
 }
 
 } // namespace froxel

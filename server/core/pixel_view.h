@@ -2,6 +2,9 @@
 // the other.
 #pragma once
 
+#include "core/outputs.h"
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,10 +18,14 @@ struct PixelView {
     uint32_t width_px = 0;
     uint32_t height_px = 0;
     size_t stride_bytes = 0;
-    // The same picture before exposure and tone map, where that was asked for, else null: linear
-    // fp32 RGBA, rows without padding, so many samples across a pixel and down it.
-    const float* radiance = nullptr;
-    uint32_t radiance_samples = 1;
+    // By Output, where it was asked for, else null: rows without padding, so many samples across a
+    // pixel and down it.
+    std::array<const float*, kOutputCount> outputs{};
+    uint32_t output_samples = 1;
+
+    [[nodiscard]] const float* output(Output which) const {
+        return outputs[static_cast<size_t>(which)];
+    }
 };
 
 // Move-only claim on a readback slot; the slot is free again when the lease ends.

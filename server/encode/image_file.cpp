@@ -119,7 +119,7 @@ writeImage(const path& file, const PixelView& pixels, const settings::Encoding& 
     if (!format) {
         return format.error();
     }
-    if (isRadiance(*format)) {
+    if (!outputsOf(*format).none()) {
         return invalid(file, "8-bit pixels go to .png or .jpg; .exr and .pfm hold linear radiance");
     }
     if (pixels.data == nullptr || pixels.width_px == 0 || pixels.height_px == 0 ||
@@ -137,7 +137,7 @@ Result<void> writeRadiance(const path& file, const LinearImage& image) {
     if (!format) {
         return format.error();
     }
-    if (!isRadiance(*format)) {
+    if (outputsOf(*format).none()) {
         return invalid(file, "linear radiance goes to .exr or .pfm");
     }
     const auto bytes = *format == ImageFormat::kExr ? exrOf(image) : pfmOf(image);

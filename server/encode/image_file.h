@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/linear_image.h"
+#include "core/outputs.h"
 #include "core/pixel_view.h"
 #include "settings/settings.h"
 
@@ -13,9 +14,11 @@ namespace froxel::encode {
 
 enum class ImageFormat : uint8_t { kPng, kJpeg, kExr, kPfm };
 
-// Whether it holds light itself, as floats, in place of display colours.
-[[nodiscard]] constexpr bool isRadiance(ImageFormat format) {
-    return format == ImageFormat::kExr || format == ImageFormat::kPfm;
+// What it holds in place of display colours: light itself, as floats; none: it holds these.
+[[nodiscard]] constexpr Outputs outputsOf(ImageFormat format) {
+    return format == ImageFormat::kExr   ? settings::rowOf(settings::Codec::kExr).outputs
+           : format == ImageFormat::kPfm ? settings::rowOf(settings::Codec::kPfm).outputs
+                                         : Outputs{};
 }
 
 // Errors: kInvalidArgument naming the file and the extensions that work.

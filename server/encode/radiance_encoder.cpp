@@ -83,7 +83,8 @@ class RadianceEncoder final : public Encoder {
                                              const settings::Encoding& /*encoding*/,
                                              bool /*key*/,
                                              TimePoint /*drawn_at*/) override {
-        if (part.radiance == nullptr || part.width_px == 0 || part.height_px == 0) {
+        if (part.output(Output::kRadiance) == nullptr || part.width_px == 0 ||
+            part.height_px == 0) {
             return Error{ErrorCode::kInvalidArgument, "an empty picture, or one without radiance"};
         }
         auto bytes = writer_(radianceOf(part));

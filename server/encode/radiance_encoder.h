@@ -18,7 +18,7 @@ namespace froxel::encode {
 // A portable float map: rows bottom-up, little endian. Errors as above.
 [[nodiscard]] Result<std::vector<std::byte>> pfmOf(const LinearImage& image);
 
-// Their pictures need PixelView::radiance.
+// Their pictures need Output::kRadiance.
 [[nodiscard]] std::unique_ptr<Encoder> makeExrEncoder(size_t thread_count);
 [[nodiscard]] std::unique_ptr<Encoder> makePfmEncoder(size_t thread_count);
 

@@ -3,6 +3,8 @@
 // encode/encoder.cpp.
 #pragma once
 
+#include "core/outputs.h"
+
 #include <algorithm>
 #include <array>
 #include <bitset>
@@ -36,7 +38,7 @@ struct CodecRow {
     bool announced = false;     // only to clients whose Hello.codecs lists it; else all decode it
     bool frames_depend = false; // on those before them, back to a key frame: video
     bool lossless = false;      // and slow, so that it waits behind the others
-    bool radiance = false;      // the picture before exposure and tone map, which it asks for
+    Outputs outputs{};          // that it makes files of, in place of pixels
     RateControl rate_control = RateControl::kNone;
     EncoderMemory memory{};
 };
@@ -60,14 +62,14 @@ inline constexpr std::array kCodecRows = {
              .streamed = false,
              .chosen = false,
              .lossless = true,
-             .radiance = true,
+             .outputs = {Output::kRadiance},
              .memory = {.base_bytes = 8 << 20U, .bytes_420 = 36, .bytes_444 = 36}},
     CodecRow{.codec = Codec::kPfm,
              .name = "pfm",
              .streamed = false,
              .chosen = false,
              .lossless = true,
-             .radiance = true,
+             .outputs = {Output::kRadiance},
              .memory = {.base_bytes = 8 << 20U, .bytes_420 = 24, .bytes_444 = 24}},
 };
 

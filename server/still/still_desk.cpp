@@ -25,7 +25,12 @@ constexpr double kCaution = 1.2;
 
 // Of a picture and of radiance, as it is and losslessly.
 uint64_t answerBytes(settings::Codec codec, const settings::Size& size) {
-    const uint64_t pixel_bytes = settings::rowOf(codec).radiance ? 12 : 3;
+    uint64_t pixel_bytes = 0;
+    for (size_t i = 0; i < kOutputCount; ++i) {
+        const bool has = settings::rowOf(codec).outputs.has(static_cast<Output>(i));
+        pixel_bytes += has ? kOutputRows[i].file_floats * sizeof(float) : 0;
+    }
+    pixel_bytes = pixel_bytes > 0 ? pixel_bytes : 3;
     return pixel_bytes * size.width_px * size.height_px;
 }
 

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/frame_stats.h"
 #include "core/frame_work.h"
+#include "core/outputs.h"
 #include "core/pixel_view.h"
 #include "motion/playback.h"
 #include "settings/settings.h"
@@ -44,8 +45,8 @@ struct Collected {
 
 // What encoding a frame's picture takes of it.
 struct EncodingNeeds {
-    uint64_t bytes = 0;    // of the same memory
-    bool radiance = false; // beside the pixels
+    uint64_t bytes = 0; // of the same memory
+    Outputs outputs{};  // beside the pixels
 };
 
 // What else begin() is told.

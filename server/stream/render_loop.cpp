@@ -425,7 +425,7 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
     terms.limit_share = viewer.affordable.limitShare();
     terms.encoding = {std::max(encode::memoryBytes(with.encoding, settings.size),
                                encode::memoryBytes(frame.state.encoding, settings.size)),
-                      settings::rowOf(with.encoding.codec).radiance};
+                      settings::rowOf(with.encoding.codec).outputs};
     settings.camera = frame.record.followed.value_or(settings.camera);
     if (frame.sample_count > 1) {
         settings.camera = settings::sampled(settings.camera, settings.size, frame.sample);

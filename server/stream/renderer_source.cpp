@@ -52,7 +52,7 @@ class RendererView final : public ViewSource {
                             .time_s = time.lights_s,
                             .playing = time.playing,
                             .keep_surfaces = true,
-                            .keep_radiance = terms.encoding.radiance,
+                            .outputs = terms.encoding.outputs,
                             .beside_bytes = terms.encoding.bytes});
     }
     [[nodiscard]] Result<void> submitPiece() override {

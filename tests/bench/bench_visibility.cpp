@@ -84,7 +84,7 @@ Picture drawTimed(render::ViewRenderer& view, render::FrameInputs inputs, const 
         std::printf(" %s %.1f", pass.c_str(), median(passes[pass]));
     }
     std::printf("\n");
-    inputs.keep_radiance = true;
+    inputs.outputs = {Output::kRadiance};
     view.submit(inputs).value();
     const auto frame = std::move(view.collect()).value();
     const auto& pixels = frame.pixels.view();

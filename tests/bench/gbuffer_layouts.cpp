@@ -73,7 +73,7 @@ struct Picture {
 };
 
 Picture drawPicture(render::ViewRenderer& view, render::FrameInputs inputs) {
-    inputs.keep_radiance = true;
+    inputs.outputs = {Output::kRadiance};
     const auto frame = drawOne(view, inputs);
     const auto& pixels = frame.pixels.view();
     Picture picture{radianceOf(pixels).rgb, {}};

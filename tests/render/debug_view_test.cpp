@@ -392,7 +392,7 @@ TEST_F(DebugViews, WhatARendererLacks_IsRefused) {
     EXPECT_THAT(refused(forward), ::testing::HasSubstr("renderer naive, which has no G-buffer"));
     EXPECT_THAT(refused(wallInputs(DebugView::kGbufferExtra)), ::testing::HasSubstr("one target"));
     auto linear = wallInputs(DebugView::kNormal);
-    linear.keep_radiance = true;
+    linear.outputs = {Output::kRadiance};
     EXPECT_THAT(refused(linear), ::testing::HasSubstr("no linear picture"));
     (void)show(view, wallInputs(DebugView::kNormal));
 }

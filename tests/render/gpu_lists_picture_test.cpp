@@ -78,7 +78,7 @@ TEST_F(GpuAssignmentFrames, TooLittleRoom_IsDrawnAgainBeforeItIsShown) {
     const Picture host = draw(renderer, host_inputs);
     render::ViewRenderer view(renderer, {.first_entries = 1, .first_tasks = 1, .line_entries = 0});
     auto inputs = inputsFor(scene, render::AssignmentPlace::kDevice);
-    inputs.keep_radiance = true;
+    inputs.outputs = {Output::kRadiance};
     for (int i = 0; i < 3; ++i) {
         ASSERT_TRUE(view.submit(inputs));
     }

@@ -97,7 +97,7 @@ TEST_F(Reuse, MovingLights_BeforeSurfacesThatRest_DrawThemOnce) {
             auto asked = inputs(renderer);
             asked.geometry = path;
             asked.depth_prepass = renderer != Renderer::kNaive;
-            asked.keep_radiance = true;
+            asked.outputs = {Output::kRadiance};
             (void)expectAsAnew(view, asked); // counts what is drawn over what
             asked.time_s = 2;
             (void)expectAsAnew(view, asked);
@@ -170,7 +170,7 @@ bool leavesThePicture(std::string_view setting) {
 TEST_F(Reuse, AnySetting_ChangedAlone_GivesThePictureOfAFreshView) {
     render::ViewRenderer view(renderer());
     auto base = inputs();
-    base.keep_radiance = true;
+    base.outputs = {Output::kRadiance};
     turnEverythingOn(base.settings);
     const Picture at_rest = expectAsAnew(view, base);
     for (const auto& row : settings::kSettingRows) {
@@ -196,7 +196,7 @@ TEST_F(Reuse, RandomWalk_EachFrame_IsThatOfAFreshView) {
     elsewhere.settings.camera = room().cameras[1].camera;
     elsewhere.settings.size = {40, 40};
     auto asked = inputs();
-    asked.keep_radiance = true;
+    asked.outputs = {Output::kRadiance};
     const auto base = asked.settings;
     size_t reused_count = 0;
     const size_t steps = wholeGrids() ? 3000 : 200;

@@ -19,7 +19,7 @@ Picture collectPixels(render::ViewRenderer& view) {
     picture.width_px = pixels.width_px;
     picture.height_px = pixels.height_px;
     picture.rgba8.assign(pixels.data, pixels.data + pixels.stride_bytes * pixels.height_px);
-    if (pixels.radiance != nullptr) {
+    if (pixels.output(Output::kRadiance) != nullptr) {
         picture.radiance = radianceOf(pixels).rgb;
     }
     picture.stats = frame->stats;
@@ -36,7 +36,7 @@ Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs
 }
 
 Picture draw(render::ViewRenderer& view, render::FrameInputs inputs) {
-    inputs.keep_radiance = true;
+    inputs.outputs = {Output::kRadiance};
     return drawPixels(view, inputs);
 }
 

@@ -135,7 +135,7 @@ class FakeView final : public stream::ViewSource {
         ++device_->begun_count;
         device_->addBegun(settings);
         waiting_ = device_->piece_count;
-        frames_.push_back({settings, encoding.radiance, waiting_});
+        frames_.push_back({settings, encoding.outputs.has(Output::kRadiance), waiting_});
         const auto estimate = device_->estimate.load();
         return FrameWork{estimate.count() > 0 ? estimate : device_->frame_time.load(), limit_share,
                          waiting_};

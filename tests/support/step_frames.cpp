@@ -84,7 +84,7 @@ const std::array kFrames = {
     StepFrame{"overdraw", [](FrameInputs& f) { f.settings.debug.view = DebugView::kOverdraw; }},
     StepFrame{"normals", [](FrameInputs& f) { f.settings.debug.view = DebugView::kNormal; }},
     StepFrame{"spheres", [](FrameInputs& f) { f.settings.debug.view = DebugView::kLightSpheres; }},
-    StepFrame{"linear picture", [](FrameInputs& f) { f.keep_radiance = true; }},
+    StepFrame{"linear picture", [](FrameInputs& f) { f.outputs = {Output::kRadiance}; }},
 };
 
 } // namespace

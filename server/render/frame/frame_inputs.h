@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/clock.h"
+#include "core/outputs.h"
 #include "motion/playback.h"
 #include "render/frame/frame_plan.h"
 #include "settings/settings.h"
@@ -27,7 +28,7 @@ struct FrameInputs {
     // What rests since the view's frame before is not drawn again: the same bits, sooner. Not for
     // whoever measures what a whole frame takes.
     bool keep_surfaces = false;
-    bool keep_radiance = false; // its pixels have it: the picture before exposure and tone map
+    Outputs outputs = {}; // that its pixels come with
     // For tests and measurements.
     GenericParts generic = {};
     bool spoil_scratch = false; // whatever a frame with kept surfaces must not read is overwritten

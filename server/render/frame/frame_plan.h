@@ -2,6 +2,7 @@
 // there is to draw. What is not planned is neither recorded nor allocated.
 #pragma once
 
+#include "core/outputs.h"
 #include "render/frame/step_plan.h"
 #include "render/pipelines/material_flags.h"
 #include "settings/settings.h"
@@ -33,10 +34,10 @@ struct FrameFacts {
     uint32_t gbuffer = 0;
     SolidGeometry geometry = SolidGeometry::kRaster;
     ListPlace lists = ListPlace::kHost;
+    Outputs outputs = {};             // that are asked for
     bool layers_visible = false;      // solid surfaces with layers are drawn by the rasteriser
     bool transparent_visible = false; // blended surfaces are in view
     bool unlit_solid = false;         // SceneNeeds::unlit
-    bool keep_radiance = false;       // the linear picture is asked for
     bool compute_batches = false;     // subgroups fetch lights together in compute
     bool fragment_batches = false;    // and in the fragment stage
     bool culled_batches = false;      // and skip what adds nothing to any of their pixels

@@ -89,9 +89,13 @@ Readback::Readback(const gpu::Device& device, const ReadbackBytes& its_bytes)
                                   vk::BufferUsageFlagBits::eTransferDst,
                               gpu::MemoryUse::kReadback,
                               "readback")) {
-    if (bytes.radiance > 0) {
-        radiance = arena.makeBuffer(bytes.radiance, vk::BufferUsageFlagBits::eTransferDst,
-                                    gpu::MemoryUse::kReadback, "radiance readback");
+    for (size_t i = 0; i < kOutputCount; ++i) {
+        if (bytes.outputs[i] > 0) {
+            outputs[i] = arena.makeBuffer(
+                bytes.outputs[i],
+                vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst,
+                gpu::MemoryUse::kReadback, std::string(kOutputRows[i].name) + " readback");
+        }
     }
 }
 

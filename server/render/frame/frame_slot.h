@@ -70,9 +70,13 @@ struct Readback {
 
     const ReadbackBytes bytes;
     gpu::MemoryArena arena;
-    gpu::Buffer buffer;   // packed pixels
-    gpu::Buffer radiance; // null handle: it is not asked for
+    gpu::Buffer buffer;                            // packed pixels
+    std::array<gpu::Buffer, kOutputCount> outputs; // null handle: it is not asked for
     std::atomic<bool> leased{false};
+
+    [[nodiscard]] const gpu::Buffer& output(Output which) const {
+        return outputs[static_cast<size_t>(which)];
+    }
 };
 
 // Offsets into the slot's upload buffer.

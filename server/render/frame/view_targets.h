@@ -56,13 +56,18 @@ inline constexpr vk::DeviceSize kWordBytes = 8;
 // What of a frame comes to the host.
 struct ReadbackBytes {
     vk::DeviceSize pixels = 0;
-    vk::DeviceSize radiance = 0; // 0: it stays on the device
+    std::array<vk::DeviceSize, kOutputCount> outputs{}; // 0: nobody asked for it
     bool operator==(const ReadbackBytes&) const = default;
 };
-[[nodiscard]] inline ReadbackBytes readbackBytes(const FrameSize& size, bool radiance) {
-    constexpr vk::DeviceSize kTexel = 4 * sizeof(float);
-    return {packedBytes(size.shown),
-            radiance ? kTexel * size.drawn.width_px * size.drawn.height_px : 0};
+[[nodiscard]] inline ReadbackBytes readbackBytes(const FrameSize& size, const Outputs& outputs) {
+    ReadbackBytes bytes{packedBytes(size.shown)};
+    for (size_t i = 0; i < kOutputCount; ++i) {
+        bytes.outputs[i] = outputs.has(static_cast<Output>(i))
+                               ? vk::DeviceSize{kOutputRows[i].floats} * sizeof(float) *
+                                     size.drawn.width_px * size.drawn.height_px
+                               : 0;
+    }
+    return bytes;
 }
 
 // What depth, ids and G-buffer were drawn from. They are functions of it alone: equal ones need no

@@ -55,7 +55,7 @@ class RadianceReadback final : public Step {
         const auto y = static_cast<vk::DeviceSize>(part.offset.y);
         frame.slot.cmd.copyImageToBuffer(
             *frame.slot.targets->radiance.handle, vk::ImageLayout::eGeneral,
-            *frame.slot.readback->radiance.handle,
+            *frame.slot.readback->output(Output::kRadiance).handle,
             vk::BufferImageCopy{.bufferOffset = (y * row_px + x) * 4 * sizeof(float),
                                 .bufferRowLength = row_px,
                                 .imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
@@ -80,7 +80,8 @@ const StepRow kRadianceReadbackStep{
     .name = pass::kRadianceReadback,
     .plan =
         [](const PlanInputs& inputs) {
-            return inputs.facts.keep_radiance ? std::optional(StepPlan{}) : std::nullopt;
+            return inputs.facts.outputs.has(Output::kRadiance) ? std::optional(StepPlan{})
+                                                               : std::nullopt;
         },
     .uses = [](const FramePlan&,
                const StepPlan&) { return std::vector{use::copied(Resource::kRadiance)}; },

@@ -102,10 +102,10 @@ FrameFacts HostWork::facts() const {
                        flag(needs.specular, io::kOutputSpecular),
             .geometry = culling_.geometry(),
             .lists = light_work_.place(),
+            .outputs = inputs_.outputs,
             .layers_visible = layersVisible(),
             .transparent_visible = !culling_.draws().transparent.empty(),
             .unlit_solid = needs.unlit,
-            .keep_radiance = inputs_.keep_radiance,
             .compute_batches = traits.subgroup_size > 1,
             // Elsewhere a subgroup of fragments may lack some of its invocations at any time.
             .fragment_batches = traits.is_cpu && traits.fragment_subgroups,

@@ -6,8 +6,7 @@ namespace froxel::render {
 
 namespace {
 
-constexpr const char* kReadback = "readback";
-constexpr const char* kRadianceReadback = "radiance readback";
+constexpr const char* kReadback = "readback"; // that of an output begins with its name
 constexpr const char* kUpload = "frame upload";
 constexpr const char* kHost = "host";
 // Counters that come back, of each slot.
@@ -22,7 +21,7 @@ FrameMemory frameMemory(const HostWork& host_work,
                         std::span<const ActiveStep> steps) {
     return {.size = size,
             .targets = targets,
-            .readback = readbackBytes(size, inputs.keep_radiance),
+            .readback = readbackBytes(size, inputs.outputs),
             .lists = host_work.lightWork().capacity(),
             .host_bytes = host_work.hostBytes() + inputs.beside_bytes,
             .steps = steps};
@@ -42,7 +41,10 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
         active.step->addMemory(need);
     }
     need.buffer(kReadback, frame.readback.pixels * ViewRenderer::kReadbackSlots);
-    need.buffer(kRadianceReadback, frame.readback.radiance * ViewRenderer::kReadbackSlots);
+    for (size_t i = 0; i < kOutputCount; ++i) {
+        need.buffer(std::string(kOutputRows[i].name) + " " + kReadback,
+                    frame.readback.outputs[i] * ViewRenderer::kReadbackSlots);
+    }
     need.buffer(kUpload, frame.upload_bytes);
     if (frame.lists.clusters > 0) {
         for (const auto& part : listParts(frame.lists)) {
@@ -58,8 +60,8 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
 MemoryTaken totalOf(const std::vector<MemoryUse>& uses, bool device_is_cpu) {
     MemoryTaken total;
     for (const auto& use : uses) {
-        const bool of_host = use.purpose == kReadback || use.purpose == kRadianceReadback ||
-                             use.purpose == kUpload || use.purpose == kHost;
+        const bool of_host =
+            use.purpose.ends_with(kReadback) || use.purpose == kUpload || use.purpose == kHost;
         (of_host && !device_is_cpu ? total.host_bytes : total.device_bytes) += use.bytes;
     }
     return total;

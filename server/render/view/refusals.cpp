@@ -28,7 +28,7 @@ Result<void> showable(const FrameInputs& inputs, bool specular) {
     const auto& settings = inputs.settings;
     const settings::DebugView debug = settings.debug.view;
     const std::string name = "debug_view: " + std::string(settings::nameOf(debug));
-    if (inputs.keep_radiance && settings::replacesPicture(debug)) {
+    if (!inputs.outputs.none() && settings::replacesPicture(debug)) {
         return Error{ErrorCode::kUnsupported, name + " has no linear picture; use .png or .jpg"};
     }
     if (settings::showsGbuffer(debug) && isForward(settings.renderer)) {

@@ -76,7 +76,7 @@ void ViewFrames::prepareTargets(FrameSlot& slot, const FramePlan& plan, const Fr
     }
     targets_->rastered_in_compute = plan.geometry == SolidGeometry::kComputeIds;
     slot.targets = targets_;
-    slot.makeReadback(scene_.shared.device, readbackBytes(size, slot.inputs.keep_radiance));
+    slot.makeReadback(scene_.shared.device, readbackBytes(size, slot.inputs.outputs));
     const bool filtered = plan.uses(Resource::kDisplay);
     writeScreenSet(scene_.shared.device, slot,
                    packedPixels(slot, filtered ? Resource::kDisplay : Resource::kPixels));
@@ -244,13 +244,14 @@ RenderedFrame ViewFrames::finish(FrameSlot& slot) {
     slot.stats.frame_us = microsSince(slot.submitted);
     slot.readback->leased = true;
     const auto& [drawn, shown] = slot.targets->size;
-    const PixelView pixels{.data = slot.readback->buffer.mapped,
-                           .width_px = shown.width_px,
-                           .height_px = shown.height_px,
-                           .stride_bytes = size_t{4} * shown.width_px,
-                           .radiance =
-                               reinterpret_cast<const float*>(slot.readback->radiance.mapped),
-                           .radiance_samples = drawn.width_px / shown.width_px};
+    PixelView pixels{.data = slot.readback->buffer.mapped,
+                     .width_px = shown.width_px,
+                     .height_px = shown.height_px,
+                     .stride_bytes = size_t{4} * shown.width_px,
+                     .output_samples = drawn.width_px / shown.width_px};
+    for (size_t i = 0; i < kOutputCount; ++i) {
+        pixels.outputs[i] = reinterpret_cast<const float*>(slot.readback->outputs[i].mapped);
+    }
     return {.pixels = PixelLease(pixels, [readback = slot.readback] { readback->leased = false; }),
             .stats = slot.stats};
 }

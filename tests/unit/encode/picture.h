@@ -18,12 +18,12 @@ struct Picture {
     uint32_t radiance_samples = 1;
 
     [[nodiscard]] PixelView view() const {
-        return {bytes.data(),
-                width_px,
-                height_px,
-                stride_bytes,
-                radiance.empty() ? nullptr : radiance.data(),
-                radiance_samples};
+        return {.data = bytes.data(),
+                .width_px = width_px,
+                .height_px = height_px,
+                .stride_bytes = stride_bytes,
+                .outputs = {radiance.empty() ? nullptr : radiance.data()},
+                .output_samples = radiance_samples};
     }
     [[nodiscard]] int channel(uint32_t x, uint32_t y, uint32_t c) const {
         return std::to_integer<int>(bytes[y * stride_bytes + x * 4 + c]);

@@ -180,7 +180,7 @@ std::string_view brokenPassRule(const settings::ViewSettings& settings,
         p.steps, [](const PlannedStep& step) { return step.plan.packs == Resource::kPixels; });
     const StepRow* packs_row = packer(p) != nullptr ? packer(p)->row : nullptr;
     // The radiance of the step that packs, behind the last one that changes it.
-    const bool read_later = facts.keep_radiance;
+    const bool read_later = facts.outputs.has(Output::kRadiance);
     const std::pair<bool, const char*> rules[] = {
         {forward != gbuffer, "solid surfaces are shaded in one way"},
         {gbuffer == has(p, kLightingStep), "a G-buffer is lit"},
@@ -208,7 +208,8 @@ std::string_view brokenPassRule(const settings::ViewSettings& settings,
          "only compute passes map tones on the way"},
         {has(p, kTonemapStep) || !has(p, kToonStep) || packs_row == &kToonStep || has(p, kFxaaStep),
          "the toon pass is the last"},
-        {storesRadiance(p) == (has(p, kTonemapStep) || has(p, kToonStep) || facts.keep_radiance),
+        {storesRadiance(p) ==
+             (has(p, kTonemapStep) || has(p, kToonStep) || facts.outputs.has(Output::kRadiance)),
          "the radiance target is there if somebody reads it"},
         {has(p, kTonemapStep) || packer(p)->plan.filters ||
              packer(p)->plan.leaves_radiance == read_later,
@@ -396,9 +397,9 @@ TEST(FramePlan, Combinations_KeepTheRules) {
                             : !has(13) ? SolidGeometry::kComputeIds
                                        : SolidGeometry::kIds,
                 .lists = has(8) ? ListPlace::kNowhere : ListPlace::kHost,
+                .outputs = has(7) ? Outputs{Output::kRadiance} : Outputs{},
                 .layers_visible = has(8) != has(2),
                 .transparent_visible = has(1),
-                .keep_radiance = has(7),
                 .compute_batches = has(9),
                 .fragment_batches = has(10),
                 .culled_batches = has(11),
@@ -432,8 +433,8 @@ TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
             const FrameFacts facts{
                 .lights = (has(1) ? io::kLightLocal : 0U) | (has(4) ? io::kLightShadows : 0U),
                 .geometry = has(3) ? SolidGeometry::kIds : SolidGeometry::kRaster,
+                .outputs = has(2) ? Outputs{Output::kRadiance} : Outputs{},
                 .transparent_visible = has(0),
-                .keep_radiance = has(2),
                 .software_device = has(6)};
             settings.environment.light =
                 has(5) ? settings::EnvironmentLight::kStudio : settings::EnvironmentLight::kOff;

@@ -60,7 +60,7 @@ const Change kDeviceLists = [](Frame& frame) { frame.facts.lists = ListPlace::kD
 const Change kLayered = [](Frame& frame) { frame.facts.layers_visible = true; };
 const Change kOutlined = [](Frame& frame) { frame.settings.toon_outline.strength = 1; };
 const Change kCounted = [](Frame& frame) { frame.settings.count_pairs = true; };
-const Change kLinear = [](Frame& frame) { frame.facts.keep_radiance = true; };
+const Change kLinear = [](Frame& frame) { frame.facts.outputs = {Output::kRadiance}; };
 
 Change shows(DebugView view) {
     return [=](Frame& frame) { frame.settings.debug.view = view; };
