@@ -12,6 +12,7 @@ namespace froxel {
 
 enum class Output : uint8_t {
     kRadiance, // before exposure and tone map: linear RGBA
+    kDepth,    // of solid surfaces, metres along the view axis; infinity: there is none
 };
 
 struct OutputRow {
@@ -20,7 +21,7 @@ struct OutputRow {
     uint32_t file_floats; // that a file has of a pixel
 };
 
-inline constexpr std::array kOutputRows = {OutputRow{"radiance", 4, 3}};
+inline constexpr std::array kOutputRows = {OutputRow{"radiance", 4, 3}, OutputRow{"depth", 1, 1}};
 inline constexpr size_t kOutputCount = kOutputRows.size();
 
 // A set of them.

@@ -53,6 +53,10 @@ std::vector<std::byte> write(const LinearImage& image) {
                     Imf::Slice::Make(Imf::FLOAT, &image.rgb[channel], header.dataWindow(), kStride,
                                      kStride * image.width_px));
     }
+    if (!image.depth_m.empty()) {
+        header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
+        from.insert("Z", Imf::Slice::Make(Imf::FLOAT, image.depth_m.data(), header.dataWindow()));
+    }
     Stream stream;
     {
         Imf::OutputFile file(stream, header, 0);
@@ -64,7 +68,8 @@ std::vector<std::byte> write(const LinearImage& image) {
 
 [[nodiscard]] Result<void> check(const LinearImage& image) {
     const size_t values = size_t{image.width_px} * image.height_px * 3;
-    if (values == 0 || image.rgb.size() != values) {
+    const bool depth = image.depth_m.empty() || 3 * image.depth_m.size() == values;
+    if (values == 0 || image.rgb.size() != values || !depth) {
         return Error{ErrorCode::kInvalidArgument, numberText(image.rgb.size()) +
                                                       " values do not make " +
                                                       numberText(image.width_px) + "x" +

@@ -11,8 +11,9 @@
 
 namespace froxel::encode {
 
-// An OpenEXR file: scan lines of float R, G and B. Errors: kInvalidArgument for an image without
-// pixels or of another number of values, kIo with what the library says. Throws std::bad_alloc.
+// An OpenEXR file: scan lines of float R, G and B, and Z where the depth is known. Errors:
+// kInvalidArgument for an image without pixels or of another number of values, kIo with what the
+// library says. Throws std::bad_alloc.
 [[nodiscard]] Result<std::vector<std::byte>> exrOf(const LinearImage& image);
 
 // A portable float map: rows bottom-up, little endian. Errors as above.

@@ -85,6 +85,7 @@ const std::array kFrames = {
     StepFrame{"normals", [](FrameInputs& f) { f.settings.debug.view = DebugView::kNormal; }},
     StepFrame{"spheres", [](FrameInputs& f) { f.settings.debug.view = DebugView::kLightSpheres; }},
     StepFrame{"linear picture", [](FrameInputs& f) { f.outputs = {Output::kRadiance}; }},
+    StepFrame{"depth", [](FrameInputs& f) { f.outputs = {Output::kDepth}; }},
 };
 
 } // namespace

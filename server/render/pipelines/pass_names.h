@@ -54,6 +54,7 @@ inline constexpr const char* kTonemap = "tonemap";
 inline constexpr const char* kFxaa = "fxaa";
 inline constexpr const char* kReadback = "readback";
 inline constexpr const char* kRadianceReadback = "radiance_readback";
+inline constexpr const char* kLinearDepth = "linear_depth";
 
 // A price alone: of all passes that make light lists on the device.
 inline constexpr const char* kAssign = "assign";

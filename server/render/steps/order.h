@@ -22,6 +22,7 @@ extern const StepRow kGbufferStep;
 extern const StepRow kIdsStep;
 extern const StepRow kLayersStep;
 extern const StepRow kLightingStep;
+extern const StepRow kLinearDepthStep;
 extern const StepRow kListsStep;
 extern const StepRow kOutlineStep;
 extern const StepRow kOverdrawStep;
@@ -67,6 +68,7 @@ inline constexpr std::array kOrder = {
     // What the host reads.
     &kReadbackStep,
     &kRadianceReadbackStep,
+    &kLinearDepthStep,
 };
 
 } // namespace froxel::render

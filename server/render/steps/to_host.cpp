@@ -1,13 +1,27 @@
 // What the host reads of a frame: packed pixels, where it does not read what the device writes, and
-// the linear picture, where that was asked for.
+// outputs that were asked for.
+#include "embedded.h"
+#include "gpu/pipeline.h"
 #include "render/frame/frame_context.h"
 #include "render/frame/step.h"
 #include "render/pipelines/pass_names.h"
+#include "render/pipelines/screen_groups.h"
+#include "render/pipelines/shared_pipeline.h"
 #include "render/steps/order.h"
+
+#include <array>
 
 namespace froxel::render {
 
 namespace {
+
+// Of an output: at a bus's 16 GB/s; about a CPU's memory, too.
+RegionCost copyCost(Output output) {
+    constexpr double kBytesASecond = 16e9;
+    const double each =
+        kOutputRows[static_cast<size_t>(output)].floats * sizeof(float) / kBytesASecond;
+    return {Seconds(0), [each](const auto& region) { return Seconds(areaOf(region) * each); }};
+}
 
 class PixelReadback final : public Step {
   public:
@@ -44,10 +58,7 @@ class RadianceReadback final : public Step {
     }
 
   private:
-    static RegionCost cost() {
-        constexpr double kPixel_s = 1e-9; // 16 bytes at a bus's 16 GB/s; about a CPU's memory, too
-        return {Seconds(0), [](const auto& region) { return Seconds(areaOf(region) * kPixel_s); }};
-    }
+    static RegionCost cost() { return copyCost(Output::kRadiance); }
     static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRadianceReadback);
         const uint32_t row_px = frame.drawn().width_px;
@@ -62,6 +73,82 @@ class RadianceReadback final : public Step {
                                 .imageOffset = {part.offset.x, part.offset.y, 0},
                                 .imageExtent = {part.extent.width, part.extent.height, 1}});
     }
+};
+
+// Shared by every view.
+struct LinearDepthPipeline {
+    explicit LinearDepthPipeline(const DeviceResources& shared)
+        : set_layout(gpu::makeSetLayout(
+              shared.device,
+              std::array{vk::DescriptorSetLayoutBinding{0, vk::DescriptorType::eStorageBuffer, 1,
+                                                        vk::ShaderStageFlagBits::eCompute}})),
+          layout(gpu::makePipelineLayout(
+              shared.device,
+              {shared.pipelines.frameLayout(), shared.pipelines.screenLayout(), *set_layout})),
+          pipeline(gpu::makeComputePipeline(
+              shared.device, shaders::linear_depth_comp(), {}, *layout, pass::kLinearDepth)) {}
+
+    vk::raii::DescriptorSetLayout set_layout;
+    vk::raii::PipelineLayout layout;
+    SharedPipeline pipeline;
+};
+
+// One a frame slot.
+struct LinearDepthSet {
+    LinearDepthSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
+        : pool(gpu::makeDescriptorPool(
+              device, std::array{vk::DescriptorPoolSize{vk::DescriptorType::eStorageBuffer, 1}})),
+          set(gpu::makeSet(device, pool, layout)) {}
+
+    vk::raii::DescriptorPool pool;
+    vk::raii::DescriptorSet set;
+};
+
+// Writes where the host reads.
+class LinearDepth final : public Step {
+  public:
+    explicit LinearDepth(SceneResources& scene) : scene_(scene) {}
+
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
+        passes.push_back({pass::kLinearDepth, timeOver(cost(costs), costs.load().size.drawn)});
+    }
+    void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
+        const auto& shared = scene_.shared.stored<LinearDepthPipeline>();
+        const auto& set =
+            slot.stored.findOrMake<LinearDepthSet>(scene_.shared.device, *shared.set_layout);
+        const vk::DescriptorBufferInfo buffer{*slot.readback->output(Output::kDepth).handle, 0,
+                                              VK_WHOLE_SIZE};
+        scene_.shared.device.handle().updateDescriptorSets(
+            vk::WriteDescriptorSet{.dstSet = *set.set,
+                                   .dstBinding = 0,
+                                   .descriptorCount = 1,
+                                   .descriptorType = vk::DescriptorType::eStorageBuffer,
+                                   .pBufferInfo = &buffer},
+            {});
+    }
+    void record(const FrameContext& frame) const override {
+        inParts(frame, frame.drawn(), cost(frame.costs), recordPart);
+    }
+
+  private:
+    static RegionCost cost(const FrameCosts& costs) {
+        const RegionCost screen = costs.screen();
+        const RegionCost copy = copyCost(Output::kDepth);
+        return {Seconds(0),
+                [screen, copy](const auto& region) { return screen.of(region) + copy.of(region); }};
+    }
+    static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
+        const auto& cmd = frame.slot.cmd;
+        const gpu::PassScope scope(frame.slot.timestamps, cmd, pass::kLinearDepth);
+        auto& shared = frame.scene.shared.stored<LinearDepthPipeline>();
+        shared.pipeline.bind(cmd, frame.scene.shared.variants);
+        const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
+                                 *frame.slot.stored.get<LinearDepthSet>().set};
+        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *shared.layout, 0, sets, {});
+        dispatchOver(cmd, part);
+    }
+
+    SceneResources& scene_;
 };
 
 } // namespace
@@ -86,5 +173,16 @@ const StepRow kRadianceReadbackStep{
     .uses = [](const FramePlan&,
                const StepPlan&) { return std::vector{use::copied(Resource::kRadiance)}; },
     .make = makeStep<RadianceReadback>};
+
+const StepRow kLinearDepthStep{
+    .name = pass::kLinearDepth,
+    .plan =
+        [](const PlanInputs& inputs) {
+            return inputs.facts.outputs.has(Output::kDepth) ? std::optional(StepPlan{})
+                                                            : std::nullopt;
+        },
+    .uses = [](const FramePlan&,
+               const StepPlan&) { return std::vector{use::sampled(Resource::kDepth)}; },
+    .make = makeStep<LinearDepth>};
 
 } // namespace froxel::render

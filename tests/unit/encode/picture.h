@@ -16,13 +16,15 @@ struct Picture {
     std::vector<std::byte> bytes;
     std::vector<float> radiance = {}; // RGBA; empty: none
     uint32_t radiance_samples = 1;
+    std::vector<float> depth_m = {}; // of each sample; empty: none
 
     [[nodiscard]] PixelView view() const {
         return {.data = bytes.data(),
                 .width_px = width_px,
                 .height_px = height_px,
                 .stride_bytes = stride_bytes,
-                .outputs = {radiance.empty() ? nullptr : radiance.data()},
+                .outputs = {radiance.empty() ? nullptr : radiance.data(),
+                            depth_m.empty() ? nullptr : depth_m.data()},
                 .output_samples = radiance_samples};
     }
     [[nodiscard]] int channel(uint32_t x, uint32_t y, uint32_t c) const {

@@ -6,6 +6,16 @@
 
 #include <gtest/gtest.h>
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <vector>
+
 namespace froxel::encode {
 namespace {
 
@@ -16,6 +26,37 @@ LinearImage readAgain(const Picture& picture) {
     EXPECT_TRUE(panorama) << panorama.error().message;
     EXPECT_TRUE(panorama->warnings.empty());
     return std::move(panorama->image);
+}
+
+class BytesIn final : public Imf::IStream {
+  public:
+    explicit BytesIn(std::span<const std::byte> bytes) : IStream("bytes"), bytes_(bytes) {}
+    bool read(char to[], int size) override {
+        std::memcpy(to, &bytes_[at_], static_cast<size_t>(size));
+        at_ += static_cast<size_t>(size);
+        return at_ < bytes_.size();
+    }
+    uint64_t tellg() override { return at_; }
+    void seekg(uint64_t at) override { at_ = at; }
+
+  private:
+    std::span<const std::byte> bytes_;
+    size_t at_ = 0;
+};
+
+// Empty: the file has no such channel.
+std::vector<float> readZ(std::span<const std::byte> file, uint32_t width_px, uint32_t height_px) {
+    BytesIn stream(file);
+    Imf::InputFile input(stream, 0);
+    if (input.header().channels().findChannel("Z") == nullptr) {
+        return {};
+    }
+    std::vector<float> z(size_t{width_px} * height_px);
+    Imf::FrameBuffer to;
+    to.insert("Z", Imf::Slice::Make(Imf::FLOAT, z.data(), input.header().dataWindow()));
+    input.setFrameBuffer(to);
+    input.readPixels(0, static_cast<int>(height_px) - 1);
+    return z;
 }
 
 TEST(ExrEncoder, Radiance_ComesToTheBit) {
@@ -48,6 +89,22 @@ TEST(ExrEncoder, SeveralSamples_ComeAsTheirMean) {
             }
         }
     }
+}
+
+// The library that writes it reads it, too: channel Z is as the picture has it.
+TEST(ExrEncoder, Depth_ComesAsZToTheBit) {
+    Picture picture = makeRadiance(6, 3, 1);
+    for (size_t i = 0; i < 18; ++i) {
+        picture.depth_m.push_back(0.1F * static_cast<float>(i + 1));
+    }
+    picture.depth_m[4] = std::numeric_limits<float>::infinity();
+    const auto encoded = makeExrEncoder(1)->encode(picture.view(), {}, false, {});
+    ASSERT_TRUE(encoded) << encoded.error().message;
+    EXPECT_EQ(readZ(encoded->bytes, 6, 3), picture.depth_m);
+    picture.depth_m.clear();
+    const auto without = makeExrEncoder(1)->encode(picture.view(), {}, false, {});
+    ASSERT_TRUE(without);
+    EXPECT_TRUE(readZ(without->bytes, 6, 3).empty());
 }
 
 TEST(ExrEncoder, PixelsWithoutRadiance_AreRefused) {
