@@ -53,6 +53,19 @@ TEST_F(SettingFields, EverySetting_IsSetByACommandAndToldByTheState_AndNothingEl
     }
 }
 
+// Settings of old are in two messages, one that sets them and one that tells them, where they may
+// drift apart. Another one goes into a message that ClientMessage and ViewState both hold.
+TEST_F(SettingFields, NewSettings_AreWrittenOnce) {
+    constexpr size_t kWrittenTwice = 58;
+    const auto set = fieldsOf(*v1::ClientMessage::descriptor());
+    const auto told = fieldsOf(*v1::ViewState::descriptor());
+    const auto twice = std::ranges::count_if(told, [&set](const auto& entry) {
+        const auto& [name, path] = entry;
+        return set.contains(name) && set.at(name).back() != path.back();
+    });
+    EXPECT_EQ(twice, kWrittenTwice) << "of " << told.size();
+}
+
 TEST_F(SettingFields, WelcomeTellsEveryRange) {
     const auto message = makeWelcome(1, context, initial);
     for (const SessionSetting& setting : sessionSettings()) {
