@@ -1,8 +1,6 @@
 #include "net/live_session.h"
 
 #include "froxel/v1/server.pb.h"
-#include "net/guard.h"
-#include "session/refinement.h"
 #include "session/scene_change.h"
 
 #include <algorithm>
@@ -14,38 +12,6 @@ using session::MemberId;
 using session::RejectCode;
 using session::Rejection;
 using session::SessionState;
-
-namespace {
-
-// Of what the refinement itself allows, since the rate is of the first, small pictures, their way
-// counted in: less than the link's.
-constexpr double kSlack = 5;
-
-bool refined(const session::ReadyFrame& frame) {
-    return frame.record.delivered.refinement >= session::Refinement::kHigh;
-}
-
-// Whether a link takes a refined picture in bearable time.
-bool carries(const session::Delivery& delivery, const session::ReadyFrame& frame) {
-    const double bits = 8.0 * static_cast<double>(frame.bytes->size());
-    const Seconds most = kSlack * session::RefinementSchedule::kMostOfTheLink;
-    return !delivery.link_rate || bits <= *delivery.link_rate * most.count();
-}
-
-} // namespace
-
-Mail::~Mail() {
-    for (auto& letter : letters_) {
-        // Only memory can fail; the viewer misses this one.
-        static_cast<void>(guarded("mail", [&] { letter.first->tell(std::move(letter.second)); }));
-    }
-}
-
-void Mail::add(const std::weak_ptr<SessionViewer>& viewer, Notice notice) {
-    if (auto present = viewer.lock()) {
-        letters_.emplace_back(std::move(present), std::move(notice));
-    }
-}
 
 Result<std::shared_ptr<LiveSession>>
 LiveSession::open(const Serving& serving, std::string room, Caller opener, TimePoint now) {
@@ -72,48 +38,12 @@ LiveSession::~LiveSession() {
     }
 }
 
-LiveSession::Member* LiveSession::find(const Place& place) {
-    const auto found = members_.find(place.member);
-    const bool current = found != members_.end() && found->second.connection == place.connection;
-    return current ? &found->second : nullptr;
-}
-
-void LiveSession::tellAll(Mail& mail, const Notice& notice) const {
-    for (const auto& [id, member] : members_) {
-        mail.add(member.viewer, notice);
-    }
-}
-
-void LiveSession::tellRoom(Mail& mail) {
-    for (auto& [id, member] : members_) {
-        if (!std::exchange(member.has_room_news, true)) {
-            mail.add(member.viewer, RoomNews{});
-        }
-    }
-}
-
-void LiveSession::tellState(Mail& mail, std::optional<MemberId> but) {
-    for (auto& [id, member] : members_) {
-        if (id != but && !std::exchange(member.has_state_news, true)) {
-            mail.add(member.viewer, StateNews{});
-        }
-    }
-}
-
-void LiveSession::tellScene(Mail& mail) {
-    for (auto& [id, member] : members_) {
-        if (!std::exchange(member.has_scene_news, true)) {
-            mail.add(member.viewer, SceneNews{});
-        }
-    }
-}
-
 void LiveSession::addMember(MemberId member, std::string name, Mail& mail) {
     const std::lock_guard lock(mutex_);
-    tellRoom(mail);
+    audience_.tellRoom(mail);
     room_.add(member, std::move(name));
     used_by_ = used_by_ == 0 ? room_.controller() : used_by_;
-    members_[member];
+    audience_.add(member);
 }
 
 std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
@@ -122,16 +52,13 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
                                                        TimePoint now,
                                                        Mail& mail) {
     const std::lock_guard lock(mutex_);
-    Member& member = members_.at(place.member);
-    mail.add(member.viewer,
-             Closing{protocol::CloseCode::kReplaced, "a newer connection continued this session"});
+    Audience::Member& member = audience_.attach(place, std::move(viewer), codecs, now, mail);
     if (room_.find(place.member)->away) {
         room_.setAway(place.member, false);
-        tellRoom(mail);
+        audience_.tellRoom(mail);
     }
-    member = {place.connection, std::move(viewer), 0, 0, codecs, {}, false, 0, 0, now};
-    member.told_scene = scene_count_; // by Welcome
-    if (awaited_) {
+    member.told_scene = scene_.count(); // by Welcome
+    if (scene_.waits()) {
         member.has_scene_news = true;
         mail.add(member.viewer, SceneNews{});
     }
@@ -153,7 +80,7 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
 
 void LiveSession::detach(const Place& place, Mail& mail) {
     const std::lock_guard lock(mutex_);
-    Member* member = find(place);
+    Audience::Member* member = audience_.find(place);
     if (member == nullptr) {
         return;
     }
@@ -162,14 +89,14 @@ void LiveSession::detach(const Place& place, Mail& mail) {
     updateCodecs(Clock::now(), mail);
     updateGrant();
     updateDelivery();
-    tellRoom(mail);
+    audience_.tellRoom(mail);
 }
 
 bool LiveSession::removeMember(MemberId member, Mail& mail) {
     const std::lock_guard lock(mutex_);
-    members_.erase(member);
+    audience_.remove(member);
     room_.remove(member);
-    const bool last = members_.empty();
+    const bool last = audience_.empty();
     if (!last) {
         updateCodecs(Clock::now(), mail);
         updateGrant();
@@ -178,14 +105,14 @@ bool LiveSession::removeMember(MemberId member, Mail& mail) {
         callOff();
         serving_.port->leave(id_);
     }
-    tellRoom(mail);
+    audience_.tellRoom(mail);
     return last;
 }
 
 CommandResult<void>
 LiveSession::apply(const Place& place, const session::CommandMessage& message, TimePoint now) {
     return underLock(mutex_, [&](Mail& mail) -> CommandResult<void> {
-        Member* member = find(place);
+        Audience::Member* member = audience_.find(place);
         if (member == nullptr) {
             return {}; // a newer connection was sent word to close this one
         }
@@ -204,7 +131,7 @@ LiveSession::apply(const Place& place, const session::CommandMessage& message, T
         member->watched_at = control_used_ = now;
         used_by_ = place.member;
         serving_.port->update(id_, state_, now);
-        tellState(mail, place.member);
+        audience_.tellState(mail, place.member);
         return {};
     });
 }
@@ -213,7 +140,7 @@ CommandResult<void> LiveSession::selectScene(const Place& place,
                                              const session::CommandMessage& message,
                                              TimePoint now) {
     return underLock(mutex_, [&](Mail& mail) -> CommandResult<void> {
-        Member* member = find(place);
+        Audience::Member* member = audience_.find(place);
         if (member == nullptr) {
             return {};
         }
@@ -227,14 +154,14 @@ CommandResult<void> LiveSession::selectScene(const Place& place,
         member->watched_at = control_used_ = now;
         used_by_ = place.member;
         const std::string& id = std::get<session::SelectScene>(message.body).id;
-        if (awaited_ && awaited_->id == id) {
+        if (scene_.waitsFor(id)) {
             return {};
         }
         session::CommandStamp stamp = message.stamp;
         stamp.author = place.connection;
         if (id == state_.scene->scene_id) {
             callOff();
-            tellScene(mail);
+            audience_.tellScene(mail);
             return {};
         }
         if (serving_.scenes == nullptr) {
@@ -251,18 +178,15 @@ CommandResult<void> LiveSession::selectScene(const Place& place,
         if (*scene) {
             show(*scene, stamp, now, mail);
         } else {
-            awaited_ = Awaited{id, stamp, {"waiting for its turn", 0}};
-            tellScene(mail);
+            scene_.await(id, stamp);
+            audience_.tellScene(mail);
         }
         return {};
     });
 }
 
 void LiveSession::callOff() {
-    if (awaited_) {
-        serving_.scenes->dismiss(awaited_->id, weak_from_this());
-        awaited_.reset();
-    }
+    scene_.callOff(serving_.scenes, weak_from_this());
 }
 
 void LiveSession::show(const session::SharedContext& scene,
@@ -271,36 +195,35 @@ void LiveSession::show(const session::SharedContext& scene,
                        Mail& mail) {
     state_ = session::withScene(state_, first_, scene, stamp, now);
     first_ = session::beginOn(scene, now);
-    scene_stamp_ = stamp;
-    ++scene_count_;
+    scene_.show(stamp);
     picture_.reset(); // whoever comes before the next one waits for it
     plain_.reset();
     serving_.port->update(id_, state_, now);
-    tellScene(mail);
-    tellState(mail);
+    audience_.tellScene(mail);
+    audience_.tellState(mail);
 }
 
 void LiveSession::onSceneProgress(const std::string& id, const Progress& progress) {
     underLock(mutex_, [&](Mail& mail) {
-        if (awaited_ && awaited_->id == id) {
-            awaited_->progress = progress;
-            tellScene(mail);
+        if (scene_.waitsFor(id)) {
+            scene_.note(progress);
+            audience_.tellScene(mail);
         }
     });
 }
 
 void LiveSession::onScene(const std::string& id, Result<session::SharedContext> scene) {
     underLock(mutex_, [&](Mail& mail) {
-        if (!awaited_ || awaited_->id != id) {
+        if (!scene_.waitsFor(id)) {
             return;
         }
-        const session::CommandStamp stamp = std::exchange(awaited_, std::nullopt)->stamp;
+        const session::CommandStamp stamp = scene_.take();
         if (scene) {
             show(*scene, stamp, Clock::now(), mail);
             return;
         }
-        tellRefusal(scene.error(), stamp, false, mail, "scene");
-        tellScene(mail);
+        audience_.tellRefusal(scene.error(), stamp, room_.controller(), false, "scene", mail);
+        audience_.tellScene(mail);
     });
 }
 
@@ -308,22 +231,23 @@ std::vector<v1::ServerMessage> LiveSession::newsOfScene(const Place& place,
                                                         settings::PlacedLights& placed) {
     const std::lock_guard lock(mutex_);
     std::vector<v1::ServerMessage> messages;
-    Member* member = find(place);
+    Audience::Member* member = audience_.find(place);
     if (member == nullptr) {
         return messages;
     }
     member->has_scene_news = false;
-    if (std::exchange(member->told_scene, scene_count_) != scene_count_) {
-        const bool asked = scene_stamp_.author == place.connection;
-        messages.push_back(session::makeSceneChanged(state_, first_, asked ? scene_stamp_.seq : 0));
+    if (std::exchange(member->told_scene, scene_.count()) != scene_.count()) {
+        const session::CommandStamp& stamp = scene_.shownFor();
+        const bool asked = stamp.author == place.connection;
+        messages.push_back(session::makeSceneChanged(state_, first_, asked ? stamp.seq : 0));
         placed = state_.settings.lights.placed;
     }
-    if (awaited_) {
-        messages.push_back(session::makeSceneLoading(awaited_->id, awaited_->progress));
+    if (const auto& awaited = scene_.awaited()) {
+        messages.push_back(session::makeSceneLoading(awaited->id, awaited->progress));
     } else if (member->told_loading) {
         messages.push_back(session::makeSceneLoading({}, {}));
     }
-    member->told_loading = awaited_.has_value();
+    member->told_loading = scene_.waits();
     if (std::exchange(member->told_compiling, compiling_) != compiling_) {
         messages.push_back(session::makeLoading({compiling_ ? "compiling shaders" : "", 0}));
     }
@@ -333,7 +257,7 @@ std::vector<v1::ServerMessage> LiveSession::newsOfScene(const Place& place,
 CommandResult<void> LiveSession::changeControl(const Place& place,
                                                const session::Command& command) {
     return underLock(mutex_, [&](Mail& mail) -> CommandResult<void> {
-        if (find(place) == nullptr) {
+        if (audience_.find(place) == nullptr) {
             return {};
         }
         if (!room_.shared()) {
@@ -351,7 +275,7 @@ CommandResult<void> LiveSession::changeControl(const Place& place,
             room_.releaseControl(place.member);
         }
         if (room_.version() != before) {
-            tellRoom(mail);
+            audience_.tellRoom(mail);
         }
         return {};
     });
@@ -374,47 +298,35 @@ std::optional<TimePoint> LiveSession::passIdleControl(Seconds limit, TimePoint n
     }
     room_.releaseControl(used_by_);
     noteHolder();
-    tellRoom(mail);
+    audience_.tellRoom(mail);
     return room_.heir() == 0 ? std::nullopt : std::optional(now + length);
 }
 
 void LiveSession::takeControl(Mail& mail) {
     const std::lock_guard lock(mutex_);
     room_.releaseControl(room_.controller());
-    tellRoom(mail);
+    audience_.tellRoom(mail);
 }
 
 void LiveSession::tellClosing(const Closing& closing, Mail& mail) const {
     const std::lock_guard lock(mutex_);
-    tellAll(mail, closing);
+    audience_.tellAll(mail, closing);
 }
 
 TimePoint LiveSession::watchedUntil(const RestLimits& limits) const {
     const std::lock_guard lock(mutex_);
-    TimePoint last{};
-    for (const auto& [id, member] : members_) {
-        if (room_.find(id)->away) {
-            return TimePoint::max(); // its grace time is another matter
-        }
-        const bool takes = !member.paused && member.acked_frame >= member.told_frame;
-        last = std::max(last, member.watched_at + std::chrono::duration_cast<Clock::duration>(
-                                                      takes ? limits.idle : limits.paused));
-    }
-    return last;
+    return audience_.watchedUntil(limits, room_);
 }
 
 // A room has video only while all who are here decode it.
 void LiveSession::updateCodecs(TimePoint now, Mail& mail) {
-    state_.decodable.set();
-    for (const auto& [id, member] : members_) {
-        state_.decodable &= member.codecs;
-    }
+    state_.decodable = audience_.decodable();
     const settings::Codec before = state_.encoding.codec;
     keepDecodable();
     if (state_.encoding.codec != before) {
         ++state_.version;
         serving_.port->update(id_, state_, now);
-        tellState(mail);
+        audience_.tellState(mail);
     }
 }
 
@@ -426,14 +338,13 @@ void LiveSession::keepDecodable() {
 
 std::optional<TimePoint> LiveSession::requestKeyFrame(const Place& place, TimePoint now) {
     const std::lock_guard lock(mutex_);
-    if (find(place) == nullptr || !settings::rowOf(state_.encoding.codec).frames_depend ||
-        key_wanted_) {
+    if (audience_.find(place) == nullptr || !settings::rowOf(state_.encoding.codec).frames_depend ||
+        video_.waits()) {
         return {};
     }
-    if (!keys_.take(now)) {
-        return keys_.nextAt(now);
+    if (const auto later = video_.want(now)) {
+        return later;
     }
-    key_wanted_ = true;
     ++state_.key_requests;
     ++state_.version; // so that a picture is drawn where nothing moves
     serving_.port->update(id_, state_, now);
@@ -442,7 +353,7 @@ std::optional<TimePoint> LiveSession::requestKeyFrame(const Place& place, TimePo
 
 SessionState LiveSession::newState(const Place& place) {
     const std::lock_guard lock(mutex_);
-    if (Member* member = find(place)) {
+    if (Audience::Member* member = audience_.find(place)) {
         member->has_state_news = false;
     }
     return state_;
@@ -460,9 +371,7 @@ bool LiveSession::controls(const Place& place) const {
 
 v1::ServerMessage LiveSession::roomState(MemberId you) {
     const std::lock_guard lock(mutex_);
-    if (const auto found = members_.find(you); found != members_.end()) {
-        found->second.has_room_news = false;
-    }
+    audience_.noteRoomTold(you);
     return session::makeRoomState(room_, you);
 }
 
@@ -485,7 +394,7 @@ v1::ServerMessage LiveSession::welcome(MemberId you,
 
 void LiveSession::grant(const Place& place, uint64_t frame_total) {
     const std::lock_guard lock(mutex_);
-    if (Member* member = find(place)) {
+    if (Audience::Member* member = audience_.find(place)) {
         member->granted = frame_total;
         updateGrant();
     }
@@ -493,10 +402,7 @@ void LiveSession::grant(const Place& place, uint64_t frame_total) {
 
 // As many as the viewer with the most room takes; the others' slots keep the newest.
 void LiveSession::updateGrant() {
-    uint64_t room = 0;
-    for (const auto& [id, member] : members_) {
-        room = std::max(room, member.granted - std::min(member.granted, member.delivered));
-    }
+    const uint64_t room = audience_.room();
     if (!ended_ && delivered_ + room != granted_) {
         granted_ = delivered_ + room;
         serving_.port->grant(id_, granted_);
@@ -505,21 +411,21 @@ void LiveSession::updateGrant() {
 
 void LiveSession::setDelivery(const Place& place, const session::Delivery& delivery) {
     underLock(mutex_, [&](Mail& mail) {
-        Member* member = find(place);
+        Audience::Member* member = audience_.find(place);
         if (member == nullptr) {
             return;
         }
         member->delivery = delivery;
         updateDelivery();
         if (picture_ && refined(*picture_) && carries(delivery, *picture_)) {
-            tellFrame(*member, *picture_, mail);
+            Audience::tellFrame(*member, *picture_, mail);
         }
     });
 }
 
 void LiveSession::setPaused(const Place& place, bool paused, TimePoint now) {
     const std::lock_guard lock(mutex_);
-    Member* member = find(place);
+    Audience::Member* member = audience_.find(place);
     if (member != nullptr && std::exchange(member->paused, paused) != paused) {
         member->watched_at = now;
         updateDelivery();
@@ -528,7 +434,7 @@ void LiveSession::setPaused(const Place& place, bool paused, TimePoint now) {
 
 void LiveSession::noteAck(const Place& place, uint64_t frame_id, TimePoint now) {
     const std::lock_guard lock(mutex_);
-    if (Member* member = find(place)) {
+    if (Audience::Member* member = audience_.find(place)) {
         member->acked_frame = std::max(member->acked_frame, frame_id);
         member->watched_at = now;
     }
@@ -540,29 +446,13 @@ bool LiveSession::plainSuffices() const {
            plain_->record.delivered.scale == 1 && plain_->record.delivered.rung == 0;
 }
 
-void LiveSession::tellFrame(Member& member, const session::ReadyFrame& frame, Mail& mail) {
-    if (frame.record.frame_id > member.told_frame) {
-        member.told_frame = frame.record.frame_id;
-        ++member.delivered;
-        mail.add(member.viewer, frame);
-    }
-}
-
 void LiveSession::updateDelivery() {
-    const session::Delivery* best = nullptr;
-    for (const auto& [id, member] : members_) {
-        if (member.delivery && !member.paused &&
-            (best == nullptr || member.delivery->rung < best->rung)) {
-            best = &*member.delivery;
-        }
-    }
+    const session::Delivery* best = audience_.best();
     if (!ended_ && best != nullptr && *best != delivery_) {
         delivery_ = *best;
         serving_.port->setDelivery(id_, delivery_);
     }
-    const bool takes = std::any_of(members_.begin(), members_.end(), [](const auto& entry) {
-        return entry.second.connection != 0 && !entry.second.paused;
-    });
+    const bool takes = audience_.takesFrames();
     if (!ended_ && std::exchange(takes_frames_, takes) != takes) {
         serving_.port->setTakesFrames(id_, takes);
     }
@@ -576,19 +466,13 @@ uint32_t LiveSession::deliveredRung() const {
 void LiveSession::deliver(session::ReadyFrame frame) {
     underLock(mutex_, [&](Mail& mail) {
         ++delivered_;
-        key_wanted_ = key_wanted_ && settings::rowOf(state_.encoding.codec).frames_depend &&
-                      !(frame.record.key && frame.isVideo());
+        video_.note(frame, settings::rowOf(state_.encoding.codec).frames_depend);
         if (!refined(frame)) {
             plain_ = frame;
         }
         picture_ = std::move(frame);
         // In a room, whose refined pictures are for its best link.
-        const bool may_wait = members_.size() > 1 && plainSuffices();
-        for (auto& [id, member] : members_) {
-            if (!may_wait || !member.delivery || carries(*member.delivery, *picture_)) {
-                tellFrame(member, *picture_, mail);
-            }
-        }
+        audience_.tellFrame(*picture_, audience_.several() && plainSuffices(), mail);
         updateGrant();
     });
 }
@@ -600,37 +484,15 @@ void LiveSession::refuse(Error error, SessionState refused, std::optional<Sessio
             return;
         }
         const bool last = !drawn && refused.settings == first_.settings;
-        tellRefusal(error, refused.applied, last, mail);
+        audience_.tellRefusal(error, refused.applied, room_.controller(), last, {}, mail);
         if (last) {
-            tellAll(mail,
-                    Closing{protocol::CloseCode::kNoPicture, "the first picture cannot be made"});
+            audience_.tellAll(
+                mail, Closing{protocol::CloseCode::kNoPicture, "the first picture cannot be made"});
         } else {
             takeBack(refused, drawn, Clock::now(), mail);
-            tellState(mail);
+            audience_.tellState(mail);
         }
     });
-}
-
-// Who asked is told, or who has control where that one is gone. The others hear of the state, which
-// is one piece of news however often it changes: nobody can have them sent away as slow readers.
-void LiveSession::tellRefusal(const Error& error,
-                              const session::CommandStamp& asked,
-                              bool to_all,
-                              Mail& mail,
-                              const std::string& field) const {
-    const auto hasAsked = [&asked](const auto& entry) {
-        return entry.second.connection == asked.author;
-    };
-    const bool is_here = std::any_of(members_.begin(), members_.end(), hasAsked);
-    const bool unsupported = error.code == ErrorCode::kUnsupported;
-    for (const auto& entry : members_) {
-        const bool answers = is_here ? hasAsked(entry) : entry.first == room_.controller();
-        if (answers || to_all) {
-            mail.add(entry.second.viewer,
-                     Rejection{unsupported ? RejectCode::kUnsupported : RejectCode::kCapacity,
-                               hasAsked(entry) ? asked.seq : 0, field, error.message});
-        }
-    }
 }
 
 // To what was drawn last; a client may have changed much before its first picture.
@@ -655,8 +517,8 @@ void LiveSession::takeBack(const SessionState& refused,
     if (other_scene) {
         state_.scene = good.scene;
         first_ = session::beginOn(good.scene, now);
-        ++scene_count_;
-        tellScene(mail);
+        scene_.show({});
+        audience_.tellScene(mail);
     }
     serving_.port->update(id_, state_, now);
 }
@@ -664,14 +526,14 @@ void LiveSession::takeBack(const SessionState& refused,
 void LiveSession::compiling(bool under_way) {
     underLock(mutex_, [&](Mail& mail) {
         compiling_ = under_way;
-        tellScene(mail);
+        audience_.tellScene(mail);
     });
 }
 
 void LiveSession::deviceLost(Error error) {
     underLock(mutex_, [&](Mail& mail) {
-        tellAll(mail, Rejection{RejectCode::kDevice, 0, "", error.message});
-        tellAll(mail, Closing{protocol::CloseCode::kDeviceLost, "the device was lost"});
+        audience_.tellAll(mail, Rejection{RejectCode::kDevice, 0, "", error.message});
+        audience_.tellAll(mail, Closing{protocol::CloseCode::kDeviceLost, "the device was lost"});
     });
 }
 

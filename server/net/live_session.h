@@ -4,11 +4,13 @@
 // nobody. Any thread; a lock inside is held for moments, never while a viewer is told something.
 #pragma once
 
-#include "core/allowance.h"
+#include "net/audience.h"
 #include "net/caller.h"
-#include "net/closing.h"
 #include "net/lobby_rules.h"
+#include "net/mail.h"
+#include "net/scene_wish.h"
 #include "net/service.h"
+#include "net/video_need.h"
 #include "session/room.h"
 #include "session/state_message.h"
 
@@ -22,51 +24,6 @@
 #include <vector>
 
 namespace froxel::net {
-
-// A change that a session announces to one of its viewers.
-struct StateNews {}; // LiveSession::state() changed
-struct RoomNews {};  // the state of the room changed
-struct SceneNews {}; // newsOfScene() changed
-using Notice =
-    std::variant<session::ReadyFrame, StateNews, RoomNews, SceneNews, session::Rejection, Closing>;
-
-// A viewer's connection, as its session sees it.
-class SessionViewer {
-  public:
-    virtual ~SessionViewer() = default;
-    // On any thread; must not block.
-    virtual void tell(Notice notice) = 0;
-};
-
-// Notices on their way. Posted when it ends, which must be after every lock was let go: a viewer
-// may end there, and take its leave.
-class Mail {
-  public:
-    Mail() = default;
-    ~Mail();
-    Mail(const Mail&) = delete;
-    Mail& operator=(const Mail&) = delete;
-
-    void add(const std::weak_ptr<SessionViewer>& viewer, Notice notice);
-
-  private:
-    std::vector<std::pair<std::shared_ptr<SessionViewer>, Notice>> letters_;
-};
-
-// Gives what step(mail) does, under the lock; its mail goes out when that is let go.
-template <class Step>
-auto underLock(std::mutex& mutex, const Step& step) {
-    Mail mail;
-    const std::lock_guard lock(mutex);
-    return step(mail);
-}
-
-// One connection of one member: what a newer connection of the same member has replaced has no
-// effect any more.
-struct Place {
-    session::MemberId member = 0;
-    uint64_t connection = 0; // unique on a server
-};
 
 class LiveSession final : public session::FrameSink,
                           public session::SceneWaiter,
@@ -161,53 +118,17 @@ class LiveSession final : public session::FrameSink,
     void onScene(const std::string& id, Result<session::SharedContext> scene) override;
 
   private:
-    struct Member {
-        uint64_t connection = 0;
-        std::weak_ptr<SessionViewer> viewer; // empty while away
-        uint64_t delivered = 0;              // pictures told to this connection
-        uint64_t granted = 0;
-        settings::CodecSet codecs = settings::CodecSet().set(); // all while away
-        std::optional<session::Delivery> delivery;              // none: nothing acknowledged yet
-        bool paused = false;
-        uint64_t told_frame = 0; // the newest picture told to this connection
-        uint64_t acked_frame = 0;
-        TimePoint watched_at{}; // its last sign of watching
-        // It was told, and has not asked since: of many changes it hears once.
-        bool has_room_news = false;
-        bool has_state_news = false;
-        bool has_scene_news = false;
-        uint64_t told_scene = 0;   // scene_count_ of what it knows of
-        bool told_loading = false; // that one is being loaded
-        bool told_compiling = false;
-    };
-    // A scene that is not there yet.
-    struct Awaited {
-        std::string id;
-        session::CommandStamp stamp; // of the command that selected it
-        Progress progress;
-    };
     LiveSession(Serving serving, std::string room, Caller opener, TimePoint now);
-    [[nodiscard]] Member* find(const Place& place);
-    void tellAll(Mail& mail, const Notice& notice) const;
-    void tellRoom(Mail& mail);
-    void tellState(Mail& mail, std::optional<session::MemberId> but = {});
-    void tellScene(Mail& mail);
     void callOff();
     void show(const session::SharedContext& scene,
               const session::CommandStamp& stamp,
               TimePoint now,
               Mail& mail);
     [[nodiscard]] bool plainSuffices() const;
-    void tellFrame(Member& member, const session::ReadyFrame& frame, Mail& mail);
     void updateGrant();
     void updateCodecs(TimePoint now, Mail& mail);
     void keepDecodable();
     void updateDelivery();
-    void tellRefusal(const Error& error,
-                     const session::CommandStamp& asked,
-                     bool to_all,
-                     Mail& mail,
-                     const std::string& field = {}) const;
     void takeBack(const session::SessionState& refused,
                   const std::optional<session::SessionState>& drawn,
                   TimePoint now,
@@ -221,19 +142,16 @@ class LiveSession final : public session::FrameSink,
     session::Room room_;
     session::MemberId used_by_ = 0; // the controller, as far as is known
     TimePoint control_used_{};      // when it last set state, or got control
-    std::map<session::MemberId, Member> members_;
+    Audience audience_;
     session::SessionState first_; // of a session on this scene
     session::SessionState state_;
-    session::CommandStamp scene_stamp_; // of the command that the scene is shown for
-    uint64_t scene_count_ = 1;          // so far, of those shown
-    std::optional<Awaited> awaited_;
+    SceneWish scene_;
     bool compiling_ = false;                     // shaders of the next picture
     std::optional<session::ReadyFrame> picture_; // newest
     std::optional<session::ReadyFrame> plain_;   // newest that is not refined
     uint64_t delivered_ = 0;                     // pictures that came from the stream
     uint64_t granted_ = 0;
-    bool key_wanted_ = false; // and none has come yet
-    Allowance keys_{kKeysAtOnce, kKeysPerSecond};
+    VideoNeed video_{kKeysAtOnce, kKeysPerSecond};
     session::Delivery delivery_; // as the stream knows it
     bool takes_frames_ = true;   // likewise
     bool ended_ = false;
