@@ -5,11 +5,29 @@
 #include "render/pipelines/gbuffer_layout.h"
 #include "render/scene/scene_resources.h"
 
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace froxel::render {
 
 namespace {
+
+// "a, b or c".
+std::string deferredRenderers() {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < settings::kRendererNames.size(); ++i) {
+        if (!isForward(static_cast<settings::Renderer>(i))) {
+            names.emplace_back(settings::kRendererNames[i]);
+        }
+    }
+    const std::string last = std::move(names.back());
+    names.pop_back();
+    return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
 
 std::string rendererName(const FrameInputs& inputs) {
     return std::string(settings::kRendererNames[static_cast<size_t>(inputs.settings.renderer)]);
@@ -34,8 +52,7 @@ Result<void> showable(const FrameInputs& inputs, bool specular) {
     if (settings::showsGbuffer(debug) && isForward(settings.renderer)) {
         return Error{ErrorCode::kUnsupported,
                      name + " is not available for renderer " + rendererName(inputs) +
-                         ", which has no G-buffer; use clustered_deferred, toon_fragment or "
-                         "toon_compute"};
+                         ", which has no G-buffer; use " + deferredRenderers()};
     }
     if (debug == settings::DebugView::kGbufferExtra &&
         extraFormat(settings.gbuffer, specular) == vk::Format::eUndefined) {
