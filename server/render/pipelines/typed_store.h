@@ -19,6 +19,12 @@ class TypedStore {
         }
         return *static_cast<T*>(made.get());
     }
+    // Null: it was not made.
+    template <class T>
+    [[nodiscard]] T* find() const {
+        const auto at = made_.find(typeid(T));
+        return at != made_.end() ? static_cast<T*>(at->second.get()) : nullptr;
+    }
     // It was made.
     template <class T>
     [[nodiscard]] T& get() const {

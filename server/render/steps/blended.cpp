@@ -64,6 +64,7 @@ struct PeelOverflow {
     explicit PeelOverflow(const gpu::Device& device) : counter(device) {}
 
     gpu::SampleCounter counter;
+    bool counts = false; // in the slot's frame
 };
 
 // Solid depth that compute rastered -> the rasteriser's, by way of the words' buffer.
@@ -158,7 +159,8 @@ class Blended final : public Step {
     void prepare(FrameSlot& slot, FrameBlocks& blocks) override;
     void record(const FrameContext& frame) const override;
     void addResults(const FrameSlot& slot, FrameStats& stats) const override {
-        if (counts_overflow_) {
+        // This step may be at a later frame already.
+        if (const auto* of = slot.stored.find<PeelOverflow>(); of != nullptr && of->counts) {
             stats.steps.set(kOverflow,
                             static_cast<double>(slot.stored.get<PeelOverflow>().counter.read()));
         }
@@ -236,7 +238,9 @@ void Blended::prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) {
         slot.step_targets.hold(targets_);
     }
     if (counts_overflow_) {
-        (void)slot.stored.findOrMake<PeelOverflow>(scene_.shared.device);
+        slot.stored.findOrMake<PeelOverflow>(scene_.shared.device).counts = true;
+    } else if (auto* of = slot.stored.find<PeelOverflow>()) {
+        of->counts = false;
     }
 }
 

@@ -94,6 +94,7 @@ struct PairCounts {
     gpu::Buffer buffer;
     vk::raii::DescriptorPool pool;
     vk::raii::DescriptorSet set;
+    bool lit = false; // the slot's frame counts
 };
 
 class Pairs final : public Step {
@@ -110,11 +111,10 @@ class Pairs final : public Step {
         return lit() ? costs.unit().counting.loop : 0;
     }
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
-        if (!lit()) {
-            return;
-        }
-        (void)slot.stored.findOrMake<PairCounts>(scene_.shared.device,
-                                                 scene_.shared.stored<PairPipelines>().setLayout());
+        slot.stored
+            .findOrMake<PairCounts>(scene_.shared.device,
+                                    scene_.shared.stored<PairPipelines>().setLayout())
+            .lit = lit();
     }
     // Without lights: as none.
     void addStats(FrameStats& stats) const override {
@@ -131,7 +131,7 @@ class Pairs final : public Step {
         inParts(frame, frame.drawn(), cost(frame.costs), recordPart);
     }
     void addResults(const FrameSlot& slot, FrameStats& stats) const override {
-        if (!lit()) {
+        if (!slot.stored.get<PairCounts>().lit) { // this step may be at a later frame already
             return;
         }
         io::PairCounts counts{};

@@ -18,19 +18,32 @@ inline constexpr uint32_t kCountsSamples = 1U << 1U;
            (frame.count_samples && !after_depth ? kCountsSamples : 0U);
 }
 
+// Of a frame slot.
+struct OverdrawCounter {
+    explicit OverdrawCounter(const gpu::Device& device) : counter(device) {}
+
+    gpu::SampleCounter counter;
+    const Step* counts = nullptr; // in the slot's frame; null: none does
+};
+
 class CountingStep : public Step {
   public:
     explicit CountingStep(SceneResources& scene) : scene_(scene) {}
 
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
         if (counts()) {
-            (void)slot.stored.findOrMake<gpu::SampleCounter>(scene_.shared.device);
+            slot.stored.findOrMake<OverdrawCounter>(scene_.shared.device).counts = this;
+        } else if (auto* of = slot.stored.find<OverdrawCounter>();
+                   of != nullptr && of->counts == this) {
+            of->counts = nullptr;
         }
     }
     void addResults(const FrameSlot& slot, FrameStats& /*stats*/) const override {
-        if (counts()) {
+        // This step may be at a later frame already.
+        if (const auto* of = slot.stored.find<OverdrawCounter>();
+            of != nullptr && of->counts == this) {
             const auto& drawn = slot.targets->size.drawn;
-            scene_.overdraw = static_cast<double>(slot.stored.get<gpu::SampleCounter>().read()) /
+            scene_.overdraw = static_cast<double>(of->counter.read()) /
                               (static_cast<double>(drawn.width_px) * drawn.height_px);
         }
     }
@@ -40,14 +53,14 @@ class CountingStep : public Step {
     [[nodiscard]] bool afterDepth() const { return (plan().way & kAfterDepth) != 0; }
     void restart(const FrameContext& frame) const {
         if (counts()) {
-            frame.slot.stored.get<gpu::SampleCounter>().restart();
+            frame.slot.stored.get<OverdrawCounter>().counter.restart();
         }
     }
     // Counts as long as it lives, where samples are counted; outside of rendering.
     class Samples {
       public:
         Samples(const FrameContext& frame, bool counts)
-            : counter_(counts ? &frame.slot.stored.get<gpu::SampleCounter>() : nullptr),
+            : counter_(counts ? &frame.slot.stored.get<OverdrawCounter>().counter : nullptr),
               cmd_(frame.slot.cmd) {
             if (counter_ != nullptr) {
                 counter_->begin(cmd_);
