@@ -34,7 +34,7 @@ class Audience {
         bool has_room_news = false;
         bool has_state_news = false;
         bool has_scene_news = false;
-        uint64_t told_scene = 0;   // scene_count_ of what it knows of
+        uint64_t told_scene = 0;   // SceneWish::count() of what it knows of
         bool told_loading = false; // that one is being loaded
         bool told_compiling = false;
     };

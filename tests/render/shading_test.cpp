@@ -327,4 +327,29 @@ TEST_F(Shading, CountPairs_NoLights_CountsNone) {
     EXPECT_EQ(stats.find("pairs", "contributing"), 0.0);
 }
 
+// What a frame counted is read by its own plan, though the view has gone on to the next one.
+TEST_F(Shading, CountPairs_OfTwoFramesInFlight_AreEachItsOwn) {
+    const auto scene = makeFloor();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    auto inputs =
+        inputsFor(settings::lookAt({0, 4, 1}, {0, 0, 0}, {0, 1, 0}), Renderer::kForwardPlus);
+    inputs.settings.count_pairs = true;
+    auto dark = inputs;
+    dark.settings.lights.count = 0;
+    dark.settings.lights.scene_lights = false;
+    inputs.settings.lights.count = 30;
+    inputs.settings.light_loop = LightLoop::kAllLights;
+    ASSERT_TRUE(view.submit(dark));
+    ASSERT_TRUE(view.submit(inputs));
+    const auto of_dark = view.collect();
+    ASSERT_TRUE(of_dark);
+    EXPECT_EQ(of_dark->stats.steps.find("pairs", "evaluated"), 0.0);
+    ASSERT_TRUE(view.submit(dark));
+    const auto of_lit = view.collect();
+    ASSERT_TRUE(of_lit);
+    EXPECT_GT(of_lit->stats.steps.count("pairs", "evaluated"), 0U);
+    ASSERT_TRUE(view.collect());
+}
+
 } // namespace froxel::test

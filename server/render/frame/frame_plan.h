@@ -100,8 +100,7 @@ struct FramePlan {
     [[nodiscard]] const StepPlan* find(const StepRow& row) const;
     // Whether a step that is recorded or reused uses it, from the `first`-th on.
     [[nodiscard]] bool uses(Resource what, size_t first = 0) const;
-    // Steps whose results may outlast the frame write nothing but these: `written` of them are
-    // reused from now on.
+    // From now on steps that write some of these resources, and nothing else, are reused.
     void reuse(std::span<const Resource> written);
     [[nodiscard]] bool byIds() const { return geometry != SolidGeometry::kRaster; }
 };
@@ -109,7 +108,6 @@ struct FramePlan {
 // What of solid surfaces the next frame may reuse.
 inline constexpr std::array kSurfaceResources = {Resource::kDepth, Resource::kIds, Resource::kWords,
                                                  Resource::kGbuffer};
-inline constexpr std::array kPoseResources = {Resource::kPosed};
 
 // Whether a step writes some of these, and nothing else.
 [[nodiscard]] bool writesOnly(std::span<const Use> uses, std::span<const Resource> these);

@@ -84,8 +84,10 @@ class Step {
     // follow from its uses. May throw VariantsMissing.
     virtual void record(const FrameContext& /*frame*/) const {}
 
-    // What the device found out, of the slot's frame, which has finished.
-    virtual void addResults(const FrameSlot& /*slot*/, FrameStats& /*stats*/) const {}
+    // What the device found out, of the slot's frame, which has finished, and `its` plan in it: by
+    // then the step may be at a later frame.
+    virtual void
+    addResults(const FrameSlot& /*slot*/, const StepPlan& /*its*/, FrameStats& /*stats*/) const {}
 
   protected:
     // The host's part of a frame. Errors: kCapacity, kUnsupported. May throw VariantsMissing,
@@ -111,6 +113,7 @@ template <class T>
 struct ActiveStep {
     Step* step = nullptr;
     bool reused = false; // PlannedStep::reused
+    StepPlan plan = {};
 };
 
 } // namespace froxel::render

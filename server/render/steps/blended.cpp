@@ -158,8 +158,9 @@ class Blended final : public Step {
     void freeTargets() override { targets_.reset(); }
     void prepare(FrameSlot& slot, FrameBlocks& blocks) override;
     void record(const FrameContext& frame) const override;
-    void addResults(const FrameSlot& slot, FrameStats& stats) const override {
-        // This step may be at a later frame already.
+    void
+    addResults(const FrameSlot& slot, const StepPlan& /*its*/, FrameStats& stats) const override {
+        // Whether it counts depends on the frame's triangles, besides its plan.
         if (const auto* of = slot.stored.find<PeelOverflow>(); of != nullptr && of->counts) {
             stats.steps.set(kOverflow,
                             static_cast<double>(slot.stored.get<PeelOverflow>().counter.read()));

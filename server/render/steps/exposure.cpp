@@ -120,7 +120,7 @@ class Exposure final : public Step {
     void prepare(FrameSlot& slot, FrameBlocks& blocks) override;
 
     void record(const FrameContext& frame) const override;
-    void addResults(const FrameSlot& slot, FrameStats& stats) const override;
+    void addResults(const FrameSlot& slot, const StepPlan& its, FrameStats& stats) const override;
 
   private:
     // Of the histogram's pass.
@@ -167,7 +167,7 @@ void Exposure::record(const FrameContext& frame) const {
             Access::eMemoryRead);
 }
 
-void Exposure::addResults(const FrameSlot& slot, FrameStats& stats) const {
+void Exposure::addResults(const FrameSlot& slot, const StepPlan& /*its*/, FrameStats& stats) const {
     float exposure = 0;
     std::memcpy(&exposure, slot.upload.mapped() + slot.stored.get<ExposureSet>().exposure_offset,
                 sizeof(exposure));

@@ -94,7 +94,6 @@ struct PairCounts {
     gpu::Buffer buffer;
     vk::raii::DescriptorPool pool;
     vk::raii::DescriptorSet set;
-    bool lit = false; // the slot's frame counts
 };
 
 class Pairs final : public Step {
@@ -111,10 +110,10 @@ class Pairs final : public Step {
         return lit() ? costs.unit().counting.loop : 0;
     }
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
-        slot.stored
-            .findOrMake<PairCounts>(scene_.shared.device,
-                                    scene_.shared.stored<PairPipelines>().setLayout())
-            .lit = lit();
+        if (lit()) {
+            (void)slot.stored.findOrMake<PairCounts>(
+                scene_.shared.device, scene_.shared.stored<PairPipelines>().setLayout());
+        }
     }
     // Without lights: as none.
     void addStats(FrameStats& stats) const override {
@@ -130,8 +129,8 @@ class Pairs final : public Step {
         computeAfterTransfer(cmd);
         inParts(frame, frame.drawn(), cost(frame.costs), recordPart);
     }
-    void addResults(const FrameSlot& slot, FrameStats& stats) const override {
-        if (!slot.stored.get<PairCounts>().lit) { // this step may be at a later frame already
+    void addResults(const FrameSlot& slot, const StepPlan& its, FrameStats& stats) const override {
+        if ((its.way & kLit) == 0) {
             return;
         }
         io::PairCounts counts{};

@@ -30,7 +30,7 @@ Result<void> ViewSteps::begin(FramePlan& plan, const StepInputs& inputs) {
             return begun;
         }
         planned.reused |= step.holds();
-        of_frame_.push_back({&step, planned.reused});
+        of_frame_.push_back({&step, planned.reused, planned.plan});
     }
     return {};
 }

@@ -18,32 +18,20 @@ inline constexpr uint32_t kCountsSamples = 1U << 1U;
            (frame.count_samples && !after_depth ? kCountsSamples : 0U);
 }
 
-// Of a frame slot.
-struct OverdrawCounter {
-    explicit OverdrawCounter(const gpu::Device& device) : counter(device) {}
-
-    gpu::SampleCounter counter;
-    const Step* counts = nullptr; // in the slot's frame; null: none does
-};
-
 class CountingStep : public Step {
   public:
     explicit CountingStep(SceneResources& scene) : scene_(scene) {}
 
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
         if (counts()) {
-            slot.stored.findOrMake<OverdrawCounter>(scene_.shared.device).counts = this;
-        } else if (auto* of = slot.stored.find<OverdrawCounter>();
-                   of != nullptr && of->counts == this) {
-            of->counts = nullptr;
+            (void)slot.stored.findOrMake<gpu::SampleCounter>(scene_.shared.device);
         }
     }
-    void addResults(const FrameSlot& slot, FrameStats& /*stats*/) const override {
-        // This step may be at a later frame already.
-        if (const auto* of = slot.stored.find<OverdrawCounter>();
-            of != nullptr && of->counts == this) {
+    void
+    addResults(const FrameSlot& slot, const StepPlan& its, FrameStats& /*stats*/) const override {
+        if ((its.way & kCountsSamples) != 0) {
             const auto& drawn = slot.targets->size.drawn;
-            scene_.overdraw = static_cast<double>(of->counter.read()) /
+            scene_.overdraw = static_cast<double>(slot.stored.get<gpu::SampleCounter>().read()) /
                               (static_cast<double>(drawn.width_px) * drawn.height_px);
         }
     }
@@ -53,14 +41,14 @@ class CountingStep : public Step {
     [[nodiscard]] bool afterDepth() const { return (plan().way & kAfterDepth) != 0; }
     void restart(const FrameContext& frame) const {
         if (counts()) {
-            frame.slot.stored.get<OverdrawCounter>().counter.restart();
+            frame.slot.stored.get<gpu::SampleCounter>().restart();
         }
     }
     // Counts as long as it lives, where samples are counted; outside of rendering.
     class Samples {
       public:
         Samples(const FrameContext& frame, bool counts)
-            : counter_(counts ? &frame.slot.stored.get<OverdrawCounter>().counter : nullptr),
+            : counter_(counts ? &frame.slot.stored.get<gpu::SampleCounter>() : nullptr),
               cmd_(frame.slot.cmd) {
             if (counter_ != nullptr) {
                 counter_->begin(cmd_);

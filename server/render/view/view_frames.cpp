@@ -238,7 +238,7 @@ RenderedFrame ViewFrames::finish(FrameSlot& slot) {
     }
     for (const ActiveStep& active : slot.steps) {
         if (!active.reused) {
-            active.step->addResults(slot, slot.stats);
+            active.step->addResults(slot, active.plan, slot.stats);
         }
     }
     slot.stats.frame_us = microsSince(slot.submitted);
