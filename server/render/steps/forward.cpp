@@ -23,9 +23,7 @@ class Forward final : public CountingStep {
     using CountingStep::CountingStep;
 
     void addLoad(const UnitCosts& /*unit*/, CostInputs& load) const override {
-        if (by_ids_) {
-            load.lit_surfaces = std::max(load.lit_surfaces, litSurfaces(material_flags_));
-        }
+        load.lit_surfaces = std::max(load.lit_surfaces, litSurfaces(material_flags_));
     }
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
         passes.push_back({by_ids_ ? pass::kShade : pass::kForward,
@@ -46,10 +44,7 @@ class Forward final : public CountingStep {
   private:
     Result<void> build(const StepInputs& inputs, const FramePlan& frame) override {
         by_ids_ = frame.byIds();
-        if (by_ids_) {
-            material_flags_ = inputs.pose.materialSet()->visibility().material_flags &
-                              ~frame.forward_unused_material_flags;
-        }
+        material_flags_ = shadedById(inputs, frame);
         return {};
     }
     [[nodiscard]] RegionCost cost(const FrameCosts& costs) const {
@@ -60,7 +55,7 @@ class Forward final : public CountingStep {
     void recordRaster(const FrameContext& frame, const vk::Rect2D& part) const;
 
     bool by_ids_ = false;
-    MaterialFlags material_flags_ = 0; // of all surfaces with ids
+    MaterialFlags material_flags_ = 0; // shadedById()
 };
 
 void Forward::recordRaster(const FrameContext& frame, const vk::Rect2D& part) const {

@@ -21,9 +21,7 @@ class Layers final : public Step {
     explicit Layers(SceneResources& /*scene*/) {}
 
     void addLoad(const UnitCosts& /*unit*/, CostInputs& load) const override {
-        if (by_ids_) {
-            load.lit_surfaces = std::max(load.lit_surfaces, litSurfaces(material_flags_));
-        }
+        load.lit_surfaces = std::max(load.lit_surfaces, litSurfaces(material_flags_));
     }
     // However few pixels have any.
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
@@ -40,10 +38,7 @@ class Layers final : public Step {
   private:
     Result<void> build(const StepInputs& inputs, const FramePlan& frame) override {
         by_ids_ = frame.byIds();
-        if (by_ids_) {
-            material_flags_ = inputs.pose.materialSet()->visibility().material_flags &
-                              ~frame.forward_unused_material_flags;
-        }
+        material_flags_ = shadedById(inputs, frame);
         return {};
     }
     [[nodiscard]] RegionCost cost(const FrameCosts& costs) const {
@@ -67,7 +62,7 @@ class Layers final : public Step {
     }
 
     bool by_ids_ = false;
-    MaterialFlags material_flags_ = 0; // of all surfaces with ids
+    MaterialFlags material_flags_ = 0; // shadedById()
 };
 
 std::string wordsOfLayers(const PlanInputs& inputs, const StepPlan* plan) {

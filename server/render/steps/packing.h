@@ -3,7 +3,7 @@
 #pragma once
 
 #include "interface/constants.h"
-#include "render/frame/frame_plan.h"
+#include "render/frame/step.h"
 
 #include <utility>
 #include <vector>
@@ -40,6 +40,14 @@ namespace froxel::render {
         uses.push_back(use::sampled(what, stage));
     }
     return uses;
+}
+
+// Flags of all materials that the forward shader shades from ids; 0: the rasteriser draws them, and
+// the draw list has theirs.
+[[nodiscard]] inline MaterialFlags shadedById(const StepInputs& inputs, const FramePlan& frame) {
+    return frame.byIds() ? inputs.pose.materialSet()->visibility().material_flags &
+                               ~frame.forward_unused_material_flags
+                         : 0;
 }
 
 } // namespace froxel::render
