@@ -136,10 +136,14 @@ class CommandLine(unittest.TestCase):
         exr, pfm = self.render("a.exr"), self.render("a.pfm")
         self.assertEqual(exr[:4], b"\x76\x2f\x31\x01")  # OpenEXR's magic number
         self.assertGreater(len(exr), 64 * 36 * 12)
-        # Its last line has a line's blues, greens and reds one after the other.
-        reds = array.array("f", exr[-64 * 4:])
+        # Its last line has the line's channels one after the other, in the order B, G, R, Z.
+        channels = array.array("f", exr[-64 * 16:])
+        blues, greens, reds, depths = (channels[at:at + 64] for at in range(0, 256, 64))
         first_row = array.array("f", pfm[-64 * 36 * 12:][: 64 * 12])  # a .pfm begins at the bottom
         self.assertEqual(reds, first_row[0::3])
+        self.assertEqual(greens, first_row[1::3])
+        self.assertEqual(blues, first_row[2::3])
+        self.assertTrue(all(depth > 0 for depth in depths))
 
     def test_view_without_a_look_is_what_the_page_begins_with(self):
         self.assertEqual(self.render("a.pfm"), self.render("b.pfm", "--look", "evening"))
