@@ -108,21 +108,21 @@ void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) 
         clearLists(assign);
         computeAfterTransfer(cmd);
         recordBound(assign);
-        nextComputePass(cmd);
+        nextIndirectPass(cmd);
         recordCount(assign);
-        nextComputePass(cmd);
+        nextIndirectPass(cmd);
     }
     {
         const gpu::PassScope scope(timestamps, cmd, pass::kAssignScan);
         recordSum(assign);
-        nextComputePass(cmd);
+        nextIndirectPass(cmd);
         recordPlace(assign);
-        nextComputePass(cmd);
+        nextIndirectPass(cmd);
     }
     {
         const gpu::PassScope scope(timestamps, cmd, pass::kAssignFill);
         recordFill(assign);
-        nextComputePass(cmd);
+        nextIndirectPass(cmd);
     }
     const gpu::PassScope scope(timestamps, cmd, pass::kAssignOrder);
     recordOrder(assign);

@@ -20,13 +20,21 @@ inline void barrier(const vk::raii::CommandBuffer& cmd,
     cmd.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &memory});
 }
 
-// What compute passes so far stored -> loads, stores and indirect arguments of those that follow.
+// What compute passes so far stored -> loads and stores of those that follow.
 inline void nextComputePass(const vk::raii::CommandBuffer& cmd) {
+    using Access = vk::AccessFlagBits2;
+    using Stage = vk::PipelineStageFlagBits2;
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eComputeShader,
+            Access::eShaderStorageRead | Access::eShaderSampledRead | Access::eShaderStorageWrite);
+}
+
+// Likewise, and -> indirect arguments of dispatches and draws.
+inline void nextIndirectPass(const vk::raii::CommandBuffer& cmd) {
     using Access = vk::AccessFlagBits2;
     using Stage = vk::PipelineStageFlagBits2;
     barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
             Stage::eComputeShader | Stage::eDrawIndirect,
-            Access::eShaderStorageRead | Access::eShaderSampledRead | Access::eShaderStorageWrite |
+            Access::eShaderStorageRead | Access::eShaderStorageWrite |
                 Access::eIndirectCommandRead);
 }
 

@@ -24,11 +24,11 @@ void recordComputeRaster(const FrameContext& frame, bool culls) {
     recordRasterClear(frame);
     computeAfterTransfer(cmd);
     recordRasterCull(frame, culls);
-    nextComputePass(cmd);
+    nextIndirectPass(cmd);
     recordRasterMeshlets(frame);
-    nextComputePass(cmd);
+    nextIndirectPass(cmd);
     recordRasterBlocks(frame);
-    nextComputePass(cmd);
+    nextIndirectPass(cmd);
     recordRasterUnpack(frame);
 }
 
@@ -44,9 +44,9 @@ void recordVisiblePart(const FrameContext& frame, const vk::Rect2D& region, bool
         computeAfterTransfer(cmd);
     }
     recordCull(frame, culls);
-    nextComputePass(cmd); // ranks and counts of visible meshlets
+    nextIndirectPass(cmd); // ranks and counts of visible meshlets
     recordCompact(frame);
-    nextComputePass(cmd); // draws and their counts
+    nextIndirectPass(cmd); // draws and their counts
     recordVisibility(frame, region);
 }
 
