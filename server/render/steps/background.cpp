@@ -8,8 +8,7 @@
 #include "render/pipelines/shared_pipeline.h"
 #include "render/steps/environment.h"
 #include "render/steps/order.h"
-
-#include <array>
+#include "render/surfaces/screen_pass.h"
 
 namespace froxel::render {
 
@@ -49,9 +48,7 @@ class Background final : public Step {
         const auto& cmd = frame.slot.cmd;
         frame.scene.shared.stored<BackgroundPipeline>().pipeline.bind(cmd,
                                                                       frame.scene.shared.variants);
-        const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set};
-        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
-                               frame.scene.shared.pipelines.screenPipelineLayout(), 0, sets, {});
+        bindScreenSets(frame, vk::PipelineBindPoint::eCompute);
         dispatchOver(cmd, region);
     }
 };

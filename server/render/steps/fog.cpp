@@ -13,6 +13,7 @@
 #include "render/steps/environment.h"
 #include "render/steps/fog_plan.h"
 #include "render/steps/order.h"
+#include "render/surfaces/screen_pass.h"
 
 #include <array>
 
@@ -169,11 +170,7 @@ class Fog final : public Step {
         return cost;
     }
     [[nodiscard]] RegionCost scatterCost(const FrameCosts& costs) const; // over the nodes
-    static void bind(const FrameContext& frame,
-                     FogShader shader,
-                     const VariantKey& key,
-                     vk::PipelineLayout layout,
-                     vk::DescriptorSet second);
+    static void bindVolume(const FrameContext& frame, FogShader shader, const VariantKey& key);
     void recordVolume(const FrameContext& frame) const;
     void recordScatter(const FrameContext& frame, const vk::Rect2D& nodes) const;
     void recordIntegrate(const FrameContext& frame) const;
@@ -232,16 +229,12 @@ void Fog::recordVolume(const FrameContext& frame) const {
     nextComputePass(frame.slot.cmd); // the sums -> texel loads of the last pass
 }
 
-void Fog::bind(const FrameContext& frame,
-               FogShader shader,
-               const VariantKey& key,
-               vk::PipelineLayout layout,
-               vk::DescriptorSet second) {
+void Fog::bindVolume(const FrameContext& frame, FogShader shader, const VariantKey& key) {
     const auto& cmd = frame.slot.cmd;
-    cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
-                     frame.scene.shared.stored<FogPipelines>().pipeline(shader, key));
-    const std::array sets = {*frame.slot.frame_set, second};
-    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0, sets, {});
+    auto& pipelines = frame.scene.shared.stored<FogPipelines>();
+    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines.pipeline(shader, key));
+    const std::array sets = {*frame.slot.frame_set, frame.slot.step_targets.get<FogVolume>().set()};
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.volumeLayout(), 0, sets, {});
 }
 
 // Reads lights and lists; writes the volume.
@@ -249,17 +242,14 @@ void Fog::recordScatter(const FrameContext& frame, const vk::Rect2D& nodes) cons
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kFogScatter);
     const uint32_t noise = (plan().way & kFogNoise) != 0 ? io::kOutputFogNoise : 0U;
     const uint32_t lights = fogLightFlags(frame.plan.forward_light_flags) & ~io::kLightDirectional;
-    bind(frame, FogShader::kScatter, {0, lights, noise},
-         scene_.shared.stored<FogPipelines>().volumeLayout(),
-         frame.slot.step_targets.get<FogVolume>().set());
+    bindVolume(frame, FogShader::kScatter, {0, lights, noise});
     dispatchOver(frame.slot.cmd, nodes, fog_.slice_count);
 }
 
 // Adds it up from front to back.
 void Fog::recordIntegrate(const FrameContext& frame) const {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kFogIntegrate);
-    bind(frame, FogShader::kIntegrate, {}, scene_.shared.stored<FogPipelines>().volumeLayout(),
-         frame.slot.step_targets.get<FogVolume>().set());
+    bindVolume(frame, FogShader::kIntegrate, {});
     frame.slot.cmd.dispatch(screenGroups(fog_.node_count_x), screenGroups(fog_.node_count_y), 1);
 }
 
@@ -267,8 +257,9 @@ void Fog::recordIntegrate(const FrameContext& frame) const {
 void Fog::recordApply(const FrameContext& frame, const vk::Rect2D& region) const {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kFog);
     const uint32_t lights = fogLightFlags(frame.plan.forward_light_flags) & io::kLightDirectional;
-    bind(frame, FogShader::kApply, {0, lights, plan().blended_output_flags},
-         frame.scene.shared.pipelines.screenPipelineLayout(), *frame.slot.screen_set);
+    bindScreen(frame, vk::PipelineBindPoint::eCompute,
+               frame.scene.shared.stored<FogPipelines>().pipeline(
+                   FogShader::kApply, {0, lights, plan().blended_output_flags}));
     dispatchOver(frame.slot.cmd, region);
 }
 

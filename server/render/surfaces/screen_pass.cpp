@@ -21,11 +21,15 @@ vk::Pipeline ScreenPipelines::find(const VariantKey& key) {
     });
 }
 
-void bindScreen(const FrameContext& frame, vk::PipelineBindPoint point, vk::Pipeline pipeline) {
-    const auto& cmd = frame.slot.cmd;
-    cmd.bindPipeline(point, pipeline);
+void bindScreenSets(const FrameContext& frame, vk::PipelineBindPoint point) {
     const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set};
-    cmd.bindDescriptorSets(point, frame.scene.shared.pipelines.screenPipelineLayout(), 0, sets, {});
+    frame.slot.cmd.bindDescriptorSets(point, frame.scene.shared.pipelines.screenPipelineLayout(), 0,
+                                      sets, {});
+}
+
+void bindScreen(const FrameContext& frame, vk::PipelineBindPoint point, vk::Pipeline pipeline) {
+    frame.slot.cmd.bindPipeline(point, pipeline);
+    bindScreenSets(frame, point);
 }
 
 } // namespace froxel::render

@@ -29,7 +29,9 @@ class ScreenPipelines {
     VariantCache<VariantKey> made_;
 };
 
-// The pipeline with the slot's frame and screen sets.
+// The slot's frame and screen sets.
+void bindScreenSets(const FrameContext& frame, vk::PipelineBindPoint point);
+// And the pipeline.
 void bindScreen(const FrameContext& frame, vk::PipelineBindPoint point, vk::Pipeline pipeline);
 
 // One pass over a part of the picture, as a variant of T, which is a ScreenPipelines.
