@@ -144,6 +144,12 @@ FramePlan planVariants(const settings::ViewSettings& settings, const FrameFacts&
     return plan;
 }
 
+void findUses(const FramePlan& plan, PlannedStep& step) {
+    if (step.row->uses != nullptr) {
+        step.uses = step.row->uses(plan, step.plan);
+    }
+}
+
 // Who packs pixels, and where: through every filter that follows, one after another.
 void placePixels(FramePlan& plan) {
     std::vector<StepPlan*> filters;
@@ -199,10 +205,7 @@ const StepPlan* FramePlan::find(const StepRow& row) const {
 
 bool FramePlan::uses(Resource what, size_t first) const {
     return std::any_of(steps.begin() + static_cast<std::ptrdiff_t>(first), steps.end(),
-                       [&](const PlannedStep& step) {
-                           const auto uses = step.uses(*this);
-                           return std::ranges::find(uses, what, &Use::what) != uses.end();
-                       });
+                       [what](const PlannedStep& step) { return step.touches(what); });
 }
 
 bool writesOnly(std::span<const Use> uses, std::span<const Resource> these) {
@@ -214,19 +217,19 @@ bool writesOnly(std::span<const Use> uses, std::span<const Resource> these) {
 
 void FramePlan::reuse(std::span<const Resource> written) {
     for (PlannedStep& step : steps) {
-        step.reused |= writesOnly(step.uses(*this), written);
+        step.reused |= writesOnly(step.uses, written);
     }
 }
 
 bool leavesSurfaces(const FramePlan& plan) {
-    return !plan.count_samples && std::ranges::any_of(plan.steps, [&](const PlannedStep& step) {
-        return writesOnly(step.uses(plan), kSurfaceResources);
+    return !plan.count_samples && std::ranges::any_of(plan.steps, [](const PlannedStep& step) {
+        return writesOnly(step.uses, kSurfaceResources);
     });
 }
 
 bool reusesSurfaces(const FramePlan& plan) {
-    return std::ranges::any_of(plan.steps, [&](const PlannedStep& step) {
-        return step.reused && writesOnly(step.uses(plan), kSurfaceResources);
+    return std::ranges::any_of(plan.steps, [](const PlannedStep& step) {
+        return step.reused && writesOnly(step.uses, kSurfaceResources);
     });
 }
 
@@ -266,10 +269,14 @@ FramePlan planFrame(const settings::ViewSettings& settings,
             plan.forward_light_flags |= step->light_flags;
             plan.lighting_light_flags |= step->light_flags;
             plan.blended_output_flags |= step->blended_output_flags;
-            plan.steps.push_back({row, *step});
+            plan.steps.push_back({.row = row, .plan = *step});
+            findUses(plan, plan.steps.back()); // for the plans of those that follow
         }
     }
     placePixels(plan);
+    for (PlannedStep& step : plan.steps) {
+        findUses(plan, step);
+    }
     return plan;
 }
 

@@ -32,7 +32,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_sh
         if (frame.steps[i].reused) {
             continue;
         }
-        if (const auto wait = tracker.before(frame.plan.steps[i].uses(frame.plan))) {
+        if (const auto wait = tracker.before(frame.plan.steps[i].uses)) {
             barrier(slot.cmd, wait->from, wait->written, wait->to, wait->used);
         }
         frame.steps[i].step->record(frame);

@@ -7,6 +7,7 @@
 #include "render/frame/uses.h"
 #include "settings/settings.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -82,12 +83,13 @@ struct StepRow {
 struct PlannedStep {
     const StepRow* row = nullptr;
     StepPlan plan;
+    std::vector<Use> uses = {}; // StepRow::uses of it
     // What it would draw is there from the view's frame before: it is not recorded.
     bool reused = false;
     bool operator==(const PlannedStep&) const = default;
 
-    [[nodiscard]] std::vector<Use> uses(const FramePlan& frame) const {
-        return row->uses != nullptr ? row->uses(frame, plan) : std::vector<Use>{};
+    [[nodiscard]] bool touches(Resource what) const {
+        return std::ranges::find(uses, what, &Use::what) != uses.end();
     }
 };
 

@@ -31,6 +31,7 @@ struct Use {
     Resource what;
     vk::PipelineStageFlags2 stages;
     vk::AccessFlags2 access;
+    bool operator==(const Use&) const = default;
 };
 
 // Uses that several steps have.

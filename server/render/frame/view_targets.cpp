@@ -113,7 +113,7 @@ void addUse(const Use& use, TargetNeeds& needs) {
 TargetNeeds targetNeeds(const FramePlan& plan, const FrameSize& size, const ViewTargets* kept) {
     TargetNeeds needs;
     for (const PlannedStep& step : plan.steps) {
-        for (const Use& use : step.uses(plan)) {
+        for (const Use& use : step.uses) {
             addUse(use, needs);
         }
     }

@@ -46,9 +46,7 @@ const PlannedStep* lastOverRadiance(const FramePlan& frame) {
         if (step.row == &kTonemapStep) {
             break;
         }
-        const auto uses = step.uses(frame);
-        last =
-            std::ranges::find(uses, Resource::kRadiance, &Use::what) != uses.end() ? &step : last;
+        last = step.touches(Resource::kRadiance) ? &step : last;
     }
     return last;
 }

@@ -50,7 +50,7 @@ void HostWork::advance(ViewSteps& steps) {
 
 FramePlan HostWork::take() {
     stage_.reset();
-    return plan_;
+    return std::exchange(plan_, {});
 }
 
 bool HostWork::prepassPays() const {

@@ -272,7 +272,7 @@ std::vector<Between> derive(const FramePlan& plan) {
         if (plan.steps[i].reused) {
             continue;
         }
-        if (const auto derived = tracker.before(plan.steps[i].uses(plan))) {
+        if (const auto derived = tracker.before(plan.steps[i].uses)) {
             all.push_back({*derived, i});
         }
     }
