@@ -2,6 +2,7 @@
 # What lavapipe passes, on a GPU: every suite that draws, pictures of all lights against lists, storms of settings with
 # the validation layer, and the hostile viewers where Python has the module websockets.
 #   ./tests/bench/check_gpu.sh PACK OUT      PACK: of pack_gpu.sh, as a file or unpacked; OUT: a folder for logs
+# FROXEL_STORM_MINUTES: of a storm, 3 unless set; FROXEL_AT_ONCE: suites at a time, a third of the processors unless set.
 # Needs a Vulkan driver, and for storms Python 3. Closes with "N passed, N failed, N skipped"; exit code 1 where a test
 # failed.
 set -euo pipefail
@@ -22,7 +23,7 @@ export VK_LAYER_PATH=$pack/layer FROXEL_TEST_DEVICE=gpu
 export FROXEL_REPOSITORY=$pack/repository FROXEL_BINARY=$froxel XDG_CACHE_HOME=$out/cache
 # As many at once as a GPU's time is worth sharing: the host's parts of most take longer than what they draw.
 at_once=$(($(nproc) / 3))
-at_once=$((at_once < 1 ? 1 : at_once > 5 ? 5 : at_once))
+at_once=${FROXEL_AT_ONCE:-$((at_once < 1 ? 1 : at_once > 5 ? 5 : at_once))}
 begin=$SECONDS
 
 tell() { # NAME PASSED FAILED SKIPPED SECONDS [WHY]
@@ -69,7 +70,7 @@ storm() { # SCENE NAME
         return
     fi
     [[ -f $pack/layer/VkLayer_khronos_validation.json ]] && options+=(--validation)
-    if python3 "$pack/repository/tests/load/soak.py" "$froxel" --minutes 3 --scripts storm -- "${options[@]}" >"$log" 2>&1 &&
+    if python3 "$pack/repository/tests/load/soak.py" "$froxel" --minutes "${FROXEL_STORM_MINUTES:-3}" --scripts storm -- "${options[@]}" >"$log" 2>&1 &&
         ! grep -q 'validation:' "$log"; then
         tell "$name" 1 0 0 $((SECONDS - start)) "$(grep -c . "$log") lines"
     else
