@@ -8,7 +8,7 @@
 #include "lib/assign_line.glsl"
 
 layout(local_size_x = 512) in;
-#include "lib/assign_scan.glsl"
+#include "lib/group_scan.glsl"
 
 const uint kGroup = gl_WorkGroupSize.x;
 const uint kChunkLights = 4096u;

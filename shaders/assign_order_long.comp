@@ -7,7 +7,7 @@
 #include "lib/assign.glsl"
 
 layout(local_size_x = 256) in;
-#include "lib/assign_scan.glsl"
+#include "lib/group_scan.glsl"
 
 shared uint bitmap[kAssignWindowWords];
 

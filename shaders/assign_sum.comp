@@ -50,7 +50,7 @@ void main() {
         }
     }
     if (self == 0u) {
-        block_sums[gl_WorkGroupID.x] = min(block_sum, kAssignSaturated);
+        block_sums[gl_WorkGroupID.x] = min(block_sum, kScanSaturated);
         atomicMax(totals.largest, block_largest);
     }
 }

@@ -1,6 +1,7 @@
 #include "encode/jpeg_encoder.h"
 
 #include "core/text.h"
+#include "encode/jpeg_format.h"
 #include "encode/jpeg_stripes.h"
 #include "settings/ranges.h"
 
@@ -90,12 +91,16 @@ Result<std::vector<std::byte>> JpegEncoder::encode(const PixelView& pixels,
         scratch_ = std::make_unique_for_overwrite<unsigned char[]>(bound);
         scratch_bytes_ = bound;
     }
+    const int transform = jpegTransform(encoding.quality) == JpegTransform::kFast
+                              ? TJFLAG_FASTDCT
+                              : TJFLAG_ACCURATEDCT;
+    const int flags = TJFLAG_NOREALLOC | transform;
     unsigned char* out = scratch_.get();
     unsigned long out_bytes = scratch_bytes_;
     const int status =
         tjCompress2(handle_.get(), reinterpret_cast<const unsigned char*>(pixels.data), width,
                     static_cast<int>(pixels.stride_bytes), height, TJPF_RGBX, &out, &out_bytes,
-                    subsampling, static_cast<int>(encoding.quality), TJFLAG_NOREALLOC);
+                    subsampling, static_cast<int>(encoding.quality), flags);
     if (status != 0) {
         return Error{ErrorCode::kIo, std::string("TurboJPEG: ") + tjGetErrorStr2(handle_.get())};
     }

@@ -5,6 +5,7 @@
 #include "assign_cone.h"
 #include "assign_math.h"
 #include "histogram_io.h"
+#include "scan_io.h"
 
 FROXEL_IO_NAMESPACE_BEGIN
 
@@ -17,7 +18,6 @@ FROXEL_CONST uint kAssignShortList = 2048U;   // up to here a list is sorted in 
 FROXEL_CONST uint kAssignBuckets = 256U;      // by runs of light indices
 FROXEL_CONST uint kAssignWindowWords = 4096U; // of the bitmap that orders longer ones
 FROXEL_CONST uint kAssignMaxGroups = 16384U;  // of a dispatch; more work is taken in turns
-FROXEL_CONST uint kAssignSaturated = 0x7fffffffU;
 
 // What became of the frame's lists.
 FROXEL_CONST uint kAssignLists = 0U;
@@ -86,7 +86,7 @@ struct AssignTotals {
     uint task_count; // wanted, perhaps more than fit
     uint short_count;
     uint long_count;
-    uint entry_count; // saturates at kAssignSaturated
+    uint entry_count; // saturates at kScanSaturated
     uint largest;
     uint outcome;
     uint histogram[kHistogramBuckets]; // of list lengths

@@ -150,7 +150,7 @@ GpuLightLists::GpuLightLists(const gpu::Device& device, const ListLimits& limits
     // Shaders read the lists as texels.
     limits_.max_entries = std::min<uint64_t>(
         {limits_.max_entries, device.limits().maxTexelBufferElements,
-         device.limits().maxStorageBufferRange / sizeof(uint32_t), io::kAssignSaturated - 1});
+         device.limits().maxStorageBufferRange / sizeof(uint32_t), io::kScanSaturated - 1});
 }
 
 const AssignData& GpuLightLists::prepare(const cluster::ClusterGrid& grid,

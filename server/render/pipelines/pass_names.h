@@ -52,6 +52,9 @@ inline constexpr const char* kBloom = "bloom";
 inline constexpr const char* kWires = "wires";
 inline constexpr const char* kTonemap = "tonemap";
 inline constexpr const char* kFxaa = "fxaa";
+inline constexpr const char* kJpegBlocks = "jpeg_blocks";
+inline constexpr const char* kJpegCount = "jpeg_count";
+inline constexpr const char* kJpegStuff = "jpeg_stuff";
 inline constexpr const char* kReadback = "readback";
 inline constexpr const char* kRadianceReadback = "radiance_readback";
 inline constexpr const char* kLinearDepth = "linear_depth";
@@ -80,7 +83,9 @@ inline constexpr std::array kPricedWith = {PricedWith{pass::kAssignLines, pass::
                                            PricedWith{pass::kFogIntegrate, pass::kFogScatter},
                                            PricedWith{pass::kWeighted, pass::kTransparent},
                                            PricedWith{pass::kPeelCount, pass::kPeel},
-                                           PricedWith{pass::kExposureMeter, pass::kExposure}};
+                                           PricedWith{pass::kExposureMeter, pass::kExposure},
+                                           PricedWith{pass::kJpegCount, pass::kJpegBlocks},
+                                           PricedWith{pass::kJpegStuff, pass::kJpegBlocks}};
 
 // The label of the price that holds the time of a pass.
 [[nodiscard]] constexpr std::string_view priceOf(std::string_view label) {

@@ -1,10 +1,12 @@
 // Prefix sums over a workgroup, whose size is declared before; all must call.
+#include "interface/scan_io.h"
+
 shared uint scan_words[gl_WorkGroupSize.x];
 
-uint saturated(uint sum) { return min(sum, kAssignSaturated); }
+uint saturated(uint sum) { return min(sum, kScanSaturated); }
 
 // The sum of the invocations before this one; `total` is that of all. Saturates, so values must not
-// pass kAssignSaturated.
+// pass kScanSaturated.
 uint scanGroup(uint value, out uint total) {
     uint self = gl_LocalInvocationIndex;
     barrier();

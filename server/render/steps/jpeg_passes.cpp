@@ -1,0 +1,238 @@
+#include "render/steps/jpeg_passes.h"
+
+#include "embedded.h"
+#include "gpu/pipeline.h"
+#include "render/pipelines/barrier.h"
+#include "render/pipelines/pass_names.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <utility>
+
+namespace froxel::render {
+
+namespace {
+
+using Type = vk::DescriptorType;
+
+constexpr uint32_t kBindings = 6; // storage buffers: shaders/lib/jpeg.glsl
+
+// Of coefficients as the transform leaves them: eight times what the quantisation is of, and those
+// of the fast one by the cosines of row and column more, in 14 bits (libjpeg-turbo, jcdctmgr.c).
+uint32_t divisorOf(const JpegFormat& format, uint32_t quantisation, size_t place) {
+    if (format.transform == JpegTransform::kAccurate) {
+        return quantisation << 3U;
+    }
+    constexpr uint32_t kBits = 14 - 3;
+    const auto scale = [](size_t k) {
+        return k == 0
+                   ? 1.0
+                   : std::numbers::sqrt2 * std::cos(static_cast<double>(k) * std::numbers::pi / 16);
+    };
+    const auto both =
+        static_cast<uint32_t>(std::lround(0x1p14 * scale(place / 8) * scale(place % 8)));
+    return (quantisation * both + (1U << (kBits - 1))) >> kBits;
+}
+
+// Division by a constant as multiplication (Fog, "Optimizing subroutines in assembly language",
+// 16.9), rounded.
+io::JpegDivisor divisorFor(uint32_t divisor, uint32_t place) {
+    if (divisor == 1) {
+        return {.reciprocal = 1, .correction = 0, .shift = 0, .place = place};
+    }
+    const auto shift = static_cast<uint32_t>(16 + std::bit_width(divisor) - 1);
+    const uint32_t quotient = (1U << shift) / divisor;
+    const uint32_t rest = (1U << shift) % divisor;
+    const uint32_t half = divisor / 2;
+    if (rest == 0) { // a power of two
+        return {.reciprocal = quotient / 2, .correction = half, .shift = shift - 1, .place = place};
+    }
+    return rest <= half ? io::JpegDivisor{quotient, half + 1, shift, place}
+                        : io::JpegDivisor{quotient + 1, half, shift, place};
+}
+
+io::JpegTables tablesFor(const JpegFormat& format, const JpegFormat::Tables& its) {
+    io::JpegTables tables{};
+    for (uint32_t i = 0; i < kJpegBlock; ++i) {
+        const size_t at = kJpegZigzag[i];
+        tables.divisors[at] = divisorFor(divisorOf(format, its.quantisation[at], at), i);
+    }
+    const auto packed = [](const HuffmanCode& code) {
+        return static_cast<uint32_t>(code.length) << 16U | code.bits;
+    };
+    std::ranges::transform(its.dc, tables.dc_codes, packed);
+    std::ranges::transform(its.ac, tables.ac_codes, packed);
+    return tables;
+}
+
+uint32_t over(uint32_t count, uint32_t each) {
+    return (count + each - 1) / each;
+}
+
+gpu::Spirv codeOf(JpegPass pass) {
+    return pass == JpegPass::kBlocks  ? shaders::jpeg_blocks_comp()
+           : pass == JpegPass::kCount ? shaders::jpeg_count_comp()
+                                      : shaders::jpeg_stuff_comp();
+}
+
+vk::raii::DescriptorSetLayout makeJpegSetLayout(const gpu::Device& device) {
+    std::array<vk::DescriptorSetLayoutBinding, kBindings> bindings;
+    for (uint32_t i = 0; i < kBindings; ++i) {
+        bindings[i] = {i, Type::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute};
+    }
+    return gpu::makeSetLayout(device, bindings);
+}
+
+} // namespace
+
+JpegTablePair jpegTables(const JpegFormat& format) {
+    return {tablesFor(format, format.luma), tablesFor(format, format.chroma)};
+}
+
+JpegSizes::JpegSizes(const settings::Size& size, const JpegFormat& format) {
+    const uint32_t unit_px = 8 * format.luma_sampling;
+    const uint32_t unit_blocks = format.luma_sampling * format.luma_sampling + 2;
+    picture.width_px = size.width_px;
+    picture.height_px = size.height_px;
+    picture.units_across = over(size.width_px, unit_px);
+    picture.unit_count = picture.units_across * over(size.height_px, unit_px);
+    run_count = over(picture.unit_count, io::kJpegGroupBlocks / unit_blocks);
+    picture.chunk_sums = run_count + 1;
+    code_bytes = (vk::DeviceSize{run_count} * io::kJpegGroupWords + 1) * sizeof(uint32_t);
+    const auto most_chunks = static_cast<uint32_t>(code_bytes / io::kJpegChunkBytes + 1);
+    sum_bytes = (vk::DeviceSize{picture.chunk_sums} + most_chunks + 1) * sizeof(uint32_t);
+    // As much as TurboJPEG has room for: tjBufSize().
+    const uint32_t samples = unit_blocks * static_cast<uint32_t>(kJpegBlock);
+    const uint32_t most = 2 * picture.unit_count * samples + 2048;
+    const auto header_bytes = static_cast<uint32_t>(format.header.size());
+    picture.scan_at = over(sizeof(uint32_t) + header_bytes, 4) * 4;
+    picture.scan_bytes = most - header_bytes;
+    header_at = picture.scan_at - header_bytes;
+    file_bytes = over(picture.scan_at + picture.scan_bytes, 4) * 4;
+}
+
+void writeJpegHeader(const JpegFormat& format, const JpegSizes& sizes, std::byte* mapped) {
+    std::byte* header = mapped + sizes.header_at;
+    std::ranges::copy(format.header, header);
+    const auto put = [&](size_t at, uint32_t side_px) {
+        header[at] = static_cast<std::byte>(side_px >> 8U);
+        header[at + 1] = static_cast<std::byte>(side_px);
+    };
+    put(format.size_at, sizes.picture.height_px);
+    put(format.size_at + 2, sizes.picture.width_px);
+}
+
+std::span<const std::byte> jpegFile(const JpegSizes& sizes, const std::byte* mapped) {
+    uint32_t scan_bytes = 0;
+    std::memcpy(&scan_bytes, mapped, sizeof(scan_bytes));
+    if (scan_bytes == 0) {
+        return {};
+    }
+    return {mapped + sizes.header_at, sizes.picture.scan_at - sizes.header_at + scan_bytes};
+}
+
+std::string jpegUnusable(const gpu::Device& device) {
+    const auto& limits = device.limits();
+    if (limits.maxComputeWorkGroupInvocations < std::max(io::kJpegGroup, io::kJpegChunk)) {
+        return "the device's workgroups are too small";
+    }
+    if (limits.maxPerStageDescriptorStorageBuffers < kBindings) {
+        return "the device binds too few storage buffers";
+    }
+    return {};
+}
+
+JpegPipelines::JpegPipelines(DeviceResources& shared)
+    : device_(shared.device), set_layout_(makeJpegSetLayout(device_)),
+      layout_(gpu::makePipelineLayout(device_, {*set_layout_}, sizeof(io::JpegPicture))),
+      made_(shared.timeline, shared.variants, Pipelines::kKeptScreen) {}
+
+vk::Pipeline JpegPipelines::pipeline(JpegPass pass, const JpegFormat& format) {
+    const auto transform = format.transform;
+    const uint32_t sampling = format.luma_sampling;
+    return *made_.findOrMake(std::tuple(pass, sampling, transform), [=, this] {
+        const uint32_t fast = transform == JpegTransform::kFast ? 1 : 0;
+        return gpu::makeComputePipeline(device_, codeOf(pass), {sampling, fast}, *layout_,
+                                        pass::kJpegBlocks);
+    });
+}
+
+JpegScratch::JpegScratch(const gpu::Device& device, const JpegSizes& sizes) : arena_(device) {
+    using Usage = vk::BufferUsageFlagBits;
+    const auto make = [&](vk::DeviceSize bytes, vk::BufferUsageFlags more) {
+        return arena_.makeBuffer(bytes, Usage::eStorageBuffer | more, gpu::MemoryUse::kDevice,
+                                 "jpeg codes");
+    };
+    state_ = make(sizeof(io::JpegState), Usage::eTransferDst | Usage::eIndirectBuffer);
+    sums_ = make(sizes.sum_bytes, {});
+    codes_ = make(sizes.code_bytes, {});
+}
+
+JpegSet::JpegSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
+    : pool_(gpu::makeDescriptorPool(
+          device, std::array{vk::DescriptorPoolSize{Type::eStorageBuffer, kBindings}})),
+      set_(gpu::makeSet(device, pool_, layout)) {}
+
+void JpegSet::write(const gpu::Device& device,
+                    const gpu::Buffer& pixels,
+                    vk::Buffer upload,
+                    vk::DeviceSize tables,
+                    const JpegScratch& scratch,
+                    const gpu::Buffer& file) {
+    const std::array<vk::DescriptorBufferInfo, kBindings> buffers = {{
+        {*pixels.handle, 0, VK_WHOLE_SIZE},
+        {upload, tables, sizeof(JpegTablePair)},
+        {*scratch.state().handle, 0, VK_WHOLE_SIZE},
+        {*scratch.sums().handle, 0, VK_WHOLE_SIZE},
+        {*scratch.codes().handle, 0, VK_WHOLE_SIZE},
+        {*file.handle, 0, VK_WHOLE_SIZE},
+    }};
+    device.handle().updateDescriptorSets(
+        vk::WriteDescriptorSet{.dstSet = *set_,
+                               .dstBinding = 0,
+                               .descriptorCount = kBindings,
+                               .descriptorType = Type::eStorageBuffer,
+                               .pBufferInfo = buffers.data()},
+        {});
+}
+
+void recordJpeg(const vk::raii::CommandBuffer& cmd,
+                gpu::Timestamps& timestamps,
+                JpegPipelines& pipelines,
+                const JpegFormat& format,
+                const JpegSizes& sizes,
+                const JpegSet& set,
+                JpegScratch& scratch) {
+    const auto bind = [&](JpegPass pass) {
+        cmd.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines.pipeline(pass, format));
+    };
+    const vk::Buffer state = *scratch.state().handle;
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.layout(), 0, set.handle(),
+                           {});
+    cmd.pushConstants<io::JpegPicture>(pipelines.layout(), vk::ShaderStageFlagBits::eCompute, 0,
+                                       sizes.picture);
+    {
+        const gpu::PassScope scope(timestamps, cmd, pass::kJpegBlocks);
+        if (!scratch.noteCleared()) {
+            cmd.fillBuffer(state, 0, VK_WHOLE_SIZE, 0);
+            computeAfterTransfer(cmd);
+        }
+        bind(JpegPass::kBlocks);
+        cmd.dispatch(sizes.run_count, 1, 1);
+    }
+    nextIndirectPass(cmd);
+    {
+        const gpu::PassScope scope(timestamps, cmd, pass::kJpegCount);
+        bind(JpegPass::kCount);
+        cmd.dispatchIndirect(state, offsetof(io::JpegState, count));
+    }
+    nextIndirectPass(cmd);
+    const gpu::PassScope scope(timestamps, cmd, pass::kJpegStuff);
+    bind(JpegPass::kStuff);
+    cmd.dispatchIndirect(state, offsetof(io::JpegState, stuff));
+}
+
+} // namespace froxel::render

@@ -1,0 +1,122 @@
+// The passes that make a baseline JPEG of packed pixels, byte for byte TurboJPEG's: one from pixels
+// to the codes of runs of units, one that counts the bytes to be stuffed, one that writes the file
+// where the host reads it. No restart markers: differences of DC are known once the blocks are, and
+// sums over runs place their codes.
+#pragma once
+
+#include "core/jpeg_format.h"
+#include "gpu/memory.h"
+#include "gpu/timestamps.h"
+#include "interface/jpeg_io.h"
+#include "render/device/device_resources.h"
+#include "render/frame/step_targets.h"
+#include "render/pipelines/variant_cache.h"
+#include "settings/settings.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <tuple>
+
+namespace froxel::render {
+
+// Luma's, and chroma's.
+using JpegTablePair = std::array<io::JpegTables, 2>;
+[[nodiscard]] JpegTablePair jpegTables(const JpegFormat& format);
+
+// What a picture of one size takes, at most.
+struct JpegSizes {
+    JpegSizes() = default;
+    JpegSizes(const settings::Size& size, const JpegFormat& format);
+
+    io::JpegPicture picture{};
+    uint32_t run_count = 0; // of units, a workgroup each
+    vk::DeviceSize sum_bytes = 0;
+    vk::DeviceSize code_bytes = 0;
+    uint32_t header_at = 0;        // of the file, in the host's buffer
+    vk::DeviceSize file_bytes = 0; // of that buffer
+};
+
+// For the host to read: a word, how many bytes of the file follow the header (0: they do not fit),
+// then at JpegSizes::header_at the file. `mapped`: of at least file_bytes.
+void writeJpegHeader(const JpegFormat& format, const JpegSizes& sizes, std::byte* mapped);
+// The file; empty where it did not fit.
+[[nodiscard]] std::span<const std::byte> jpegFile(const JpegSizes& sizes, const std::byte* mapped);
+
+// Why the device cannot make them; empty: it can.
+[[nodiscard]] std::string jpegUnusable(const gpu::Device& device);
+
+enum class JpegPass : uint8_t { kBlocks, kCount, kStuff };
+
+// Shared by every view.
+class JpegPipelines {
+  public:
+    explicit JpegPipelines(DeviceResources& shared);
+
+    // May throw VariantsMissing.
+    [[nodiscard]] vk::Pipeline pipeline(JpegPass pass, const JpegFormat& format);
+    [[nodiscard]] vk::DescriptorSetLayout setLayout() const { return *set_layout_; }
+    [[nodiscard]] vk::PipelineLayout layout() const { return *layout_; }
+
+  private:
+    const gpu::Device& device_;
+    vk::raii::DescriptorSetLayout set_layout_;
+    vk::raii::PipelineLayout layout_;
+    VariantCache<std::tuple<JpegPass, uint32_t, JpegTransform>> made_;
+};
+
+// What lies between the passes. One view's.
+class JpegScratch final : public StepTargets {
+  public:
+    JpegScratch(const gpu::Device& device, const JpegSizes& sizes);
+
+    [[nodiscard]] bool fits(const JpegSizes& sizes) const {
+        return sums_.size_bytes == sizes.sum_bytes && codes_.size_bytes == sizes.code_bytes;
+    }
+    void begin() override { cleared_ = false; }
+    // Whether a frame that was recorded before has cleared the counters, which passes leave as they
+    // find them; from now on one has.
+    [[nodiscard]] bool noteCleared() { return std::exchange(cleared_, true); }
+    [[nodiscard]] const gpu::Buffer& state() const { return state_; }
+    [[nodiscard]] const gpu::Buffer& sums() const { return sums_; }
+    [[nodiscard]] const gpu::Buffer& codes() const { return codes_; }
+
+  private:
+    gpu::MemoryArena arena_;
+    gpu::Buffer state_;
+    gpu::Buffer sums_;
+    gpu::Buffer codes_;
+    bool cleared_ = false;
+};
+
+// One a frame slot.
+class JpegSet {
+  public:
+    JpegSet(const gpu::Device& device, vk::DescriptorSetLayout layout);
+
+    // `tables`: within `upload`, JpegTablePair. Not in flight.
+    void write(const gpu::Device& device,
+               const gpu::Buffer& pixels,
+               vk::Buffer upload,
+               vk::DeviceSize tables,
+               const JpegScratch& scratch,
+               const gpu::Buffer& file);
+    [[nodiscard]] vk::DescriptorSet handle() const { return *set_; }
+
+  private:
+    vk::raii::DescriptorPool pool_;
+    vk::raii::DescriptorSet set_;
+};
+
+// Reads pixels that were stored before; the file is there once the host may read. May throw
+// VariantsMissing.
+void recordJpeg(const vk::raii::CommandBuffer& cmd,
+                gpu::Timestamps& timestamps,
+                JpegPipelines& pipelines,
+                const JpegFormat& format,
+                const JpegSizes& sizes,
+                const JpegSet& set,
+                JpegScratch& scratch);
+
+} // namespace froxel::render

@@ -1,0 +1,189 @@
+// JPEGs that the device makes, against TurboJPEG's: the same bytes.
+#include "../unit/encode/picture.h"
+#include "encode/jpeg_encoder.h"
+#include "encode/jpeg_format.h"
+#include "gpu/command_context.h"
+#include "render/pipelines/host_copies.h"
+#include "render/steps/jpeg_passes.h"
+#include "render/view/renderer.h"
+#include "support/gpu_fixture.h"
+
+#include <algorithm>
+#include <cstring>
+#include <random>
+
+namespace froxel::test {
+namespace {
+
+using encode::Picture;
+using settings::Chroma;
+using settings::Encoding;
+
+Picture blank(uint32_t width_px, uint32_t height_px) {
+    Picture picture{width_px, height_px, width_px * size_t{4}, {}};
+    picture.bytes.assign(picture.stride_bytes * height_px, std::byte{0});
+    return picture;
+}
+
+// Each byte by itself; of `extreme` ones 0 or 255, which no cosine is far from.
+Picture noise(uint32_t width_px, uint32_t height_px, uint32_t seed, bool extreme) {
+    Picture picture = blank(width_px, height_px);
+    std::mt19937 random(seed);
+    for (std::byte& byte : picture.bytes) {
+        const uint32_t value = random() & 255U;
+        byte = static_cast<std::byte>(!extreme ? value : value < 128 ? 0 : 255);
+    }
+    return picture;
+}
+
+// Blocks of the cosines themselves, as black and white: the largest coefficients that there are.
+Picture cosines(uint32_t seed) {
+    Picture picture = blank(64, 64);
+    std::mt19937 random(seed);
+    for (uint32_t y = 0; y < 64; ++y) {
+        for (uint32_t x = 0; x < 64; ++x) {
+            const double across = std::cos((2 * (x % 8) + 1) * (x / 8) * M_PI / 16);
+            const double down = std::cos((2 * (y % 8) + 1) * (y / 8) * M_PI / 16);
+            const bool flips = random() % 64 == 0;
+            const std::byte value{static_cast<uint8_t>((across * down > 0) != flips ? 255 : 0)};
+            std::fill_n(&picture.bytes[y * picture.stride_bytes + x * 4], 3, value);
+        }
+    }
+    return picture;
+}
+
+class DeviceJpeg : public SharedGpuTest {
+  protected:
+    static void SetUpTestSuite() {
+        SharedGpuTest::SetUpTestSuite();
+        on_ = std::make_unique<render::RenderDevice>(device());
+        timestamps_ = std::make_unique<gpu::Timestamps>(device());
+    }
+    static void TearDownTestSuite() {
+        timestamps_.reset();
+        on_.reset();
+        SharedGpuTest::TearDownTestSuite();
+    }
+
+    // Made so many times with the same buffers; the last one's file.
+    static std::vector<std::byte>
+    make(const Picture& picture, const Encoding& encoding, int times = 1, uint32_t room = 0) {
+        auto& shared = on_->resources();
+        auto& pipelines = shared.stored<render::JpegPipelines>();
+        const auto format = encode::jpegFormat(encoding);
+        EXPECT_TRUE(format);
+        render::JpegSizes sizes({picture.width_px, picture.height_px}, *format);
+        sizes.picture.scan_bytes = room > 0 ? room : sizes.picture.scan_bytes;
+        const auto tables = render::jpegTables(*format);
+        gpu::MemoryArena arena(device());
+        const auto host = [&](size_t bytes, gpu::MemoryUse use) {
+            return arena.makeBuffer(bytes, vk::BufferUsageFlagBits::eStorageBuffer, use, "jpeg");
+        };
+        const auto pixels = host(picture.bytes.size(), gpu::MemoryUse::kUpload);
+        std::ranges::copy(picture.bytes, pixels.mapped);
+        const auto upload = host(sizeof(tables), gpu::MemoryUse::kUpload);
+        std::memcpy(upload.mapped, &tables, sizeof(tables));
+        const auto file = host(sizes.file_bytes, gpu::MemoryUse::kReadback);
+        render::writeJpegHeader(*format, sizes, file.mapped);
+        render::JpegScratch scratch(device(), sizes);
+        render::JpegSet set(device(), pipelines.setLayout());
+        set.write(device(), pixels, *upload.handle, 0, scratch, file);
+        for (int i = 0; i < times; ++i) {
+            timestamps_->reset();
+            shared.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
+                render::recordJpeg(cmd, *timestamps_, pipelines, *format, sizes, set, scratch);
+                render::recordHostRead(cmd);
+            });
+        }
+        const auto made = render::jpegFile(sizes, file.mapped);
+        return {made.begin(), made.end()};
+    }
+
+    static void expectSame(const Picture& picture, const Encoding& encoding, int times = 1) {
+        SCOPED_TRACE(testing::Message() << picture.width_px << "x" << picture.height_px
+                                        << " quality " << encoding.quality
+                                        << (encoding.chroma == Chroma::k444 ? " 4:4:4" : " 4:2:0"));
+        static encode::JpegEncoder turbo;
+        const auto expected = turbo.encode(picture.view(), encoding);
+        ASSERT_TRUE(expected) << expected.error().message;
+        const auto made = make(picture, encoding, times);
+        const auto at = std::ranges::mismatch(made, *expected);
+        EXPECT_TRUE(made == *expected) << made.size() << " bytes for " << expected->size()
+                                       << ", the first that differs is " << at.in1 - made.begin();
+    }
+
+    inline static std::unique_ptr<render::RenderDevice> on_;
+    inline static std::unique_ptr<gpu::Timestamps> timestamps_;
+};
+
+constexpr std::array kChromas = {Chroma::k420, Chroma::k444};
+
+TEST_F(DeviceJpeg, EveryQuality_HasTurboJpegsBytes) {
+    const Picture picture = encode::makePicture(67, 45);
+    for (uint32_t quality = 1; quality <= 100; ++quality) {
+        for (const Chroma chroma : kChromas) {
+            expectSame(picture, {.quality = quality, .chroma = chroma});
+        }
+    }
+}
+
+TEST_F(DeviceJpeg, EverySizeOfTheLastBlocks_HasTurboJpegsBytes) {
+    for (const uint32_t height_px : {1U, 2U, 7U, 8U, 9U, 15U, 16U, 17U, 31U}) {
+        for (uint32_t width_px = 1; width_px <= 34; ++width_px) {
+            for (const Chroma chroma : kChromas) {
+                expectSame(encode::makePicture(width_px, height_px),
+                           {.quality = 85, .chroma = chroma});
+            }
+        }
+    }
+}
+
+TEST_F(DeviceJpeg, Noise_HasTurboJpegsBytes) {
+    for (const uint32_t quality : {1U, 30U, 75U, 90U, 95U, 96U, 100U}) {
+        for (const Chroma chroma : kChromas) {
+            const Encoding encoding{.quality = quality, .chroma = chroma};
+            expectSame(noise(200, 120, quality, false), encoding);
+            expectSame(noise(200, 120, quality, true), encoding);
+        }
+    }
+}
+
+TEST_F(DeviceJpeg, LargestCoefficients_HaveTurboJpegsBytes) {
+    for (uint32_t seed = 0; seed < 4; ++seed) {
+        for (const uint32_t quality : {50U, 90U, 95U, 96U, 100U}) {
+            for (const Chroma chroma : kChromas) {
+                expectSame(cosines(seed), {.quality = quality, .chroma = chroma});
+            }
+        }
+    }
+}
+
+TEST_F(DeviceJpeg, LargePictures_HaveTurboJpegsBytes) {
+    for (const Chroma chroma : kChromas) {
+        expectSame(encode::makePicture(1280, 720), {.quality = 85, .chroma = chroma});
+        expectSame(noise(1000, 1000, 1, false), {.quality = 100, .chroma = chroma});
+    }
+}
+
+TEST_F(DeviceJpeg, OnePicture_IsOneBlock) {
+    for (const Chroma chroma : kChromas) {
+        expectSame(blank(1, 1), {.quality = 85, .chroma = chroma});
+        expectSame(blank(2000, 16), {.quality = 85, .chroma = chroma}); // codes of a few bits
+    }
+}
+
+TEST_F(DeviceJpeg, NextOneWithTheSameBuffers_HasTheSameBytes) {
+    expectSame(noise(300, 200, 2, false), {.quality = 95}, 3);
+}
+
+TEST_F(DeviceJpeg, WhatDoesNotFit_IsNoFile) {
+    const Picture picture = noise(64, 64, 3, false);
+    const auto whole = make(picture, {.quality = 95});
+    const auto format = encode::jpegFormat({.quality = 95});
+    const auto scan_bytes = static_cast<uint32_t>(whole.size() - format->header.size());
+    EXPECT_EQ(make(picture, {.quality = 95}, 1, scan_bytes), whole);
+    EXPECT_TRUE(make(picture, {.quality = 95}, 1, scan_bytes - 1).empty());
+}
+
+} // namespace
+} // namespace froxel::test
