@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <utility>
 
 namespace froxel {
@@ -22,6 +23,8 @@ struct PixelView {
     // pixel and down it.
     std::array<const float*, kOutputCount> outputs{};
     uint32_t output_samples = 1;
+    // The picture as this file, made on the device, in place of `data`.
+    std::span<const std::byte> jpeg = {};
 
     [[nodiscard]] const float* output(Output which) const {
         return outputs[static_cast<size_t>(which)];

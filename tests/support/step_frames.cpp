@@ -1,5 +1,7 @@
 #include "support/step_frames.h"
 
+#include "encode/jpeg_format.h"
+
 #include <array>
 
 namespace froxel::test {
@@ -85,6 +87,12 @@ const std::array kFrames = {
     StepFrame{"normals", [](FrameInputs& f) { f.settings.debug.view = DebugView::kNormal; }},
     StepFrame{"spheres", [](FrameInputs& f) { f.settings.debug.view = DebugView::kLightSpheres; }},
     StepFrame{"linear picture", [](FrameInputs& f) { f.outputs = {Output::kRadiance}; }},
+    StepFrame{"jpeg",
+              [](FrameInputs& f) {
+                  static const auto format =
+                      std::make_shared<const JpegFormat>(*encode::jpegFormat({.quality = 85}));
+                  f.jpeg = format;
+              }},
     StepFrame{"depth", [](FrameInputs& f) { f.outputs = {Output::kDepth}; }},
 };
 

@@ -144,6 +144,13 @@ FramePlan planVariants(const settings::ViewSettings& settings, const FrameFacts&
     return plan;
 }
 
+// Of a pixel that is shown; a debug view in the picture's place has one.
+uint32_t samplesAcross(const settings::ViewSettings& settings) {
+    return settings::replacesPicture(settings.debug.view)
+               ? 1
+               : settings::samplesAcross(settings.antialiasing);
+}
+
 void findUses(const FramePlan& plan, PlannedStep& step) {
     if (step.row->uses != nullptr) {
         step.uses = step.row->uses(plan, step.plan);
@@ -249,11 +256,15 @@ FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
 }
 
 FrameSize frameSize(const settings::ViewSettings& settings) {
-    const uint32_t across = settings::replacesPicture(settings.debug.view)
-                                ? 1
-                                : settings::samplesAcross(settings.antialiasing);
-    return {.drawn = {settings.size.width_px * across, settings.size.height_px * across},
-            .shown = settings.size};
+    const uint32_t across = samplesAcross(settings);
+    const settings::Size& shown = settings.size;
+    return {.drawn = {shown.width_px * across, shown.height_px * across}, .shown = shown};
+}
+
+FrameSize frameSizeOfDrawn(const settings::ViewSettings& settings) {
+    const uint32_t across = samplesAcross(settings);
+    const settings::Size& drawn = settings.size;
+    return {.drawn = drawn, .shown = {drawn.width_px / across, drawn.height_px / across}};
 }
 
 FramePlan planFrame(const settings::ViewSettings& settings,

@@ -35,6 +35,7 @@ struct FrameFacts {
     SolidGeometry geometry = SolidGeometry::kRaster;
     ListPlace lists = ListPlace::kHost;
     Outputs outputs = {};             // that are asked for
+    bool makes_jpeg = false;          // pixels come to the host as a file
     bool layers_visible = false;      // solid surfaces with layers are drawn by the rasteriser
     bool transparent_visible = false; // blended surfaces are in view
     bool unlit_solid = false;         // SceneNeeds::unlit
@@ -134,7 +135,9 @@ struct FrameSize {
     settings::Size shown;
     bool operator==(const FrameSize&) const = default;
 };
+// `settings`: as they are asked for; or with the size that is drawn in place of the one shown.
 [[nodiscard]] FrameSize frameSize(const settings::ViewSettings& settings);
+[[nodiscard]] FrameSize frameSizeOfDrawn(const settings::ViewSettings& settings);
 
 // `rows`: all steps that there are, in the order of the frame.
 [[nodiscard]] FramePlan planFrame(const settings::ViewSettings& settings,

@@ -84,7 +84,7 @@ void FrameUpload::clear() {
 
 Readback::Readback(const gpu::Device& device, const ReadbackBytes& its_bytes)
     : bytes(its_bytes), arena(device),
-      buffer(arena.makeBuffer(bytes.pixels,
+      buffer(arena.makeBuffer(bytes.picture,
                               vk::BufferUsageFlagBits::eStorageBuffer |
                                   vk::BufferUsageFlagBits::eTransferDst,
                               gpu::MemoryUse::kReadback,

@@ -64,13 +64,13 @@ class FrameUpload {
     std::vector<Piece> pieces_;
 };
 
-// Pixels on the host; outlives its view while a lease holds it.
+// A picture on the host; outlives its view while a lease holds it.
 struct Readback {
     Readback(const gpu::Device& device, const ReadbackBytes& bytes);
 
     const ReadbackBytes bytes;
     gpu::MemoryArena arena;
-    gpu::Buffer buffer;                            // packed pixels
+    gpu::Buffer buffer;                            // packed pixels, or a file of them
     std::array<gpu::Buffer, kOutputCount> outputs; // null handle: it is not asked for
     std::atomic<bool> leased{false};
 

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/frame_stats.h"
+#include "core/jpeg_format.h"
 #include "light/frame_lights.h"
 #include "render/frame/debug_frame.h"
 #include "render/frame/draw_list.h"
@@ -32,12 +33,14 @@ struct ViewTargets;
 // What the host knows of a frame that was built.
 struct StepInputs {
     const settings::ViewSettings& settings; // their size: what is drawn
+    FrameSize size;
     const ScenePose& pose;
     const light::FrameLights& lights;
     const DrawList& draws;
     const DebugFrame& debug; // of a frame with a debug view
     double time_s = 0;
     bool keeps = false; // what rests since the frame before need not be drawn again
+    std::shared_ptr<const JpegFormat> jpeg = {}; // of a frame whose pixels become a file
 };
 
 // One view's, made when a frame first has it. Only frames that have it call it, but for

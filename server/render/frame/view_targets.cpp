@@ -101,7 +101,7 @@ void addUse(const Use& use, TargetNeeds& needs) {
         needs.display_count = 2;
         break;
     case Resource::kPixels:
-        needs.device_pixels |= static_cast<bool>(use.access & vk::AccessFlagBits2::eTransferRead);
+        needs.device_pixels |= !writes(use); // a step reads them
         break;
     default: // a step's own, or always there
         break;

@@ -5,8 +5,10 @@
 #include "gpu/memory.h"
 #include "interface/frame_io.h"
 #include "render/frame/frame_plan.h"
+#include "render/frame/jpeg_file.h"
 #include "settings/settings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
@@ -23,14 +25,14 @@ struct TargetNeeds {
     bool compute_raster = false;   // what compute rasters into
     bool sampled_radiance = false; // passes look at a pixel's neighbours
     uint32_t display_count = 0;    // of pictures before filters over them
-    bool device_pixels = false;    // packed pixels are copied to the host rather than written there
+    bool device_pixels = false;    // the host does not read packed pixels where they are written
 
     [[nodiscard]] bool covers(const TargetNeeds& other) const {
         const bool same_gbuffer = gbuffer && gbuffer_flags == other.gbuffer_flags;
         return (same_gbuffer || !other.gbuffer) && (radiance || !other.radiance) &&
                (visibility || !other.visibility) && (compute_raster || !other.compute_raster) &&
                (sampled_radiance || !other.sampled_radiance) &&
-               display_count == other.display_count && (device_pixels || !other.device_pixels);
+               display_count == other.display_count && device_pixels == other.device_pixels;
     }
     bool operator==(const TargetNeeds&) const = default;
 };
@@ -55,12 +57,18 @@ inline constexpr vk::DeviceSize kWordBytes = 8;
 
 // What of a frame comes to the host.
 struct ReadbackBytes {
-    vk::DeviceSize pixels = 0;
+    vk::DeviceSize picture = 0;                         // packed pixels, or a file of them
     std::array<vk::DeviceSize, kOutputCount> outputs{}; // 0: nobody asked for it
     bool operator==(const ReadbackBytes&) const = default;
 };
-[[nodiscard]] inline ReadbackBytes readbackBytes(const FrameSize& size, const Outputs& outputs) {
+// jpeg: null where pixels come as they are. Views go to and fro: room for a file is room for
+// pixels.
+[[nodiscard]] inline ReadbackBytes
+readbackBytes(const FrameSize& size, const Outputs& outputs, const JpegFormat* jpeg) {
     ReadbackBytes bytes{packedBytes(size.shown)};
+    if (jpeg != nullptr) {
+        bytes.picture = std::max(bytes.picture, JpegSizes(size.shown, *jpeg).file_bytes);
+    }
     for (size_t i = 0; i < kOutputCount; ++i) {
         bytes.outputs[i] = outputs.has(static_cast<Output>(i))
                                ? vk::DeviceSize{kOutputRows[i].floats} * sizeof(float) *

@@ -9,40 +9,21 @@
 #include "gpu/timestamps.h"
 #include "interface/jpeg_io.h"
 #include "render/device/device_resources.h"
+#include "render/frame/jpeg_file.h"
 #include "render/frame/step_targets.h"
 #include "render/pipelines/variant_cache.h"
-#include "settings/settings.h"
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace froxel::render {
 
 // Luma's, and chroma's.
 using JpegTablePair = std::array<io::JpegTables, 2>;
 [[nodiscard]] JpegTablePair jpegTables(const JpegFormat& format);
-
-// What a picture of one size takes, at most.
-struct JpegSizes {
-    JpegSizes() = default;
-    JpegSizes(const settings::Size& size, const JpegFormat& format);
-
-    io::JpegPicture picture{};
-    uint32_t run_count = 0; // of units, a workgroup each
-    vk::DeviceSize sum_bytes = 0;
-    vk::DeviceSize code_bytes = 0;
-    uint32_t header_at = 0;        // of the file, in the host's buffer
-    vk::DeviceSize file_bytes = 0; // of that buffer
-};
-
-// For the host to read: a word, how many bytes of the file follow the header (0: they do not fit),
-// then at JpegSizes::header_at the file. `mapped`: of at least file_bytes.
-void writeJpegHeader(const JpegFormat& format, const JpegSizes& sizes, std::byte* mapped);
-// The file; empty where it did not fit.
-[[nodiscard]] std::span<const std::byte> jpegFile(const JpegSizes& sizes, const std::byte* mapped);
 
 // Why the device cannot make them; empty: it can.
 [[nodiscard]] std::string jpegUnusable(const gpu::Device& device);

@@ -20,6 +20,7 @@ extern const StepRow kForwardStep;
 extern const StepRow kFxaaStep;
 extern const StepRow kGbufferStep;
 extern const StepRow kIdsStep;
+extern const StepRow kJpegStep;
 extern const StepRow kLayersStep;
 extern const StepRow kLightingStep;
 extern const StepRow kLinearDepthStep;
@@ -66,6 +67,7 @@ inline constexpr std::array kOrder = {
     &kTonemapStep,
     &kFxaaStep,
     // What the host reads.
+    &kJpegStep,
     &kReadbackStep,
     &kRadianceReadbackStep,
     &kLinearDepthStep,

@@ -353,7 +353,7 @@ ShadowAtlas Shadows::copy() const {
     }
     atlas.depths.resize(size_t{extent.width} * extent.height);
     const vk::DeviceSize bytes = atlas.depths.size() * sizeof(float);
-    const Readback readback(scene_.shared.device, {.pixels = bytes});
+    const Readback readback(scene_.shared.device, {.picture = bytes});
     scene_.shared.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
         recordTargetCopy(cmd, targets_->atlas, vk::ImageAspectFlagBits::eDepth, readback.buffer);
     });

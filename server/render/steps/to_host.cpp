@@ -157,7 +157,9 @@ const StepRow kReadbackStep{
     .name = pass::kReadback,
     .plan =
         [](const PlanInputs& inputs) {
-            return !inputs.facts.software_device ? std::optional(StepPlan{}) : std::nullopt;
+            return !inputs.facts.software_device && !inputs.facts.makes_jpeg
+                       ? std::optional(StepPlan{})
+                       : std::nullopt;
         },
     .uses = [](const FramePlan&,
                const StepPlan&) { return std::vector{use::copied(Resource::kPixels)}; },

@@ -67,12 +67,14 @@ class HostWork {
     // What steps are told of the frame that was built.
     [[nodiscard]] StepInputs stepInputs() const {
         return {.settings = inputs_.settings,
+                .size = frameSizeOfDrawn(inputs_.settings),
                 .pose = pose_,
                 .lights = light_work_.lights(),
                 .draws = culling_.draws(),
                 .debug = debug_,
                 .time_s = inputs_.time_s,
-                .keeps = inputs_.keep_surfaces};
+                .keeps = inputs_.keep_surfaces,
+                .jpeg = inputs_.jpeg};
     }
     // What solid surfaces of the frame with that plan are drawn from.
     [[nodiscard]] SurfacesDrawn surfaces(const FramePlan& plan) const {

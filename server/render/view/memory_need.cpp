@@ -21,7 +21,7 @@ FrameMemory frameMemory(const HostWork& host_work,
                         std::span<const ActiveStep> steps) {
     return {.size = size,
             .targets = targets,
-            .readback = readbackBytes(size, inputs.outputs),
+            .readback = readbackBytes(size, inputs.outputs, inputs.jpeg.get()),
             .lists = host_work.lightWork().capacity(),
             .host_bytes = host_work.hostBytes() + inputs.beside_bytes,
             .steps = steps};
@@ -40,7 +40,7 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
     for (const ActiveStep& active : frame.steps) {
         active.step->addMemory(need);
     }
-    need.buffer(kReadback, frame.readback.pixels * ViewRenderer::kReadbackSlots);
+    need.buffer(kReadback, frame.readback.picture * ViewRenderer::kReadbackSlots);
     for (size_t i = 0; i < kOutputCount; ++i) {
         need.buffer(std::string(kOutputRows[i].name) + " " + kReadback,
                     frame.readback.outputs[i] * ViewRenderer::kReadbackSlots);

@@ -76,7 +76,8 @@ void ViewFrames::prepareTargets(FrameSlot& slot, const FramePlan& plan, const Fr
     }
     targets_->rastered_in_compute = plan.geometry == SolidGeometry::kComputeIds;
     slot.targets = targets_;
-    slot.makeReadback(scene_.shared.device, readbackBytes(size, slot.inputs.outputs));
+    slot.makeReadback(scene_.shared.device,
+                      readbackBytes(size, slot.inputs.outputs, slot.inputs.jpeg.get()));
     const bool filtered = plan.uses(Resource::kDisplay);
     writeScreenSet(scene_.shared.device, slot,
                    packedPixels(slot, filtered ? Resource::kDisplay : Resource::kPixels));
@@ -244,11 +245,16 @@ RenderedFrame ViewFrames::finish(FrameSlot& slot) {
     slot.stats.frame_us = microsSince(slot.submitted);
     slot.readback->leased = true;
     const auto& [drawn, shown] = slot.targets->size;
-    PixelView pixels{.data = slot.readback->buffer.mapped,
-                     .width_px = shown.width_px,
+    const std::byte* host = slot.readback->buffer.mapped;
+    PixelView pixels{.width_px = shown.width_px,
                      .height_px = shown.height_px,
-                     .stride_bytes = size_t{4} * shown.width_px,
                      .output_samples = drawn.width_px / shown.width_px};
+    if (slot.inputs.jpeg) {
+        pixels.jpeg = jpegFile(JpegSizes(shown, *slot.inputs.jpeg), host);
+    } else {
+        pixels.data = host;
+        pixels.stride_bytes = size_t{4} * shown.width_px;
+    }
     for (size_t i = 0; i < kOutputCount; ++i) {
         pixels.outputs[i] = reinterpret_cast<const float*>(slot.readback->outputs[i].mapped);
     }

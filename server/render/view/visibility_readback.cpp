@@ -96,7 +96,7 @@ Visibility copyVisibility(SceneResources& resources,
         return visibility; // no solid surface in the whole scene
     }
     const Readback readback(resources.shared.device,
-                            {.pixels = count * (sizeof(uint32_t) + sizeof(float))});
+                            {.picture = count * (sizeof(uint32_t) + sizeof(float))});
     resources.shared.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
         recordTargetCopy(cmd, targets.ids, vk::ImageAspectFlagBits::eColor, readback.buffer);
         recordTargetCopy(cmd, targets.solidDepth(),

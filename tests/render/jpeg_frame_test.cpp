@@ -1,0 +1,123 @@
+// Frames that come to the host as JPEGs: the files that TurboJPEG makes of their pixels.
+#include "encode/jpeg_encoder.h"
+#include "encode/jpeg_format.h"
+#include "render/view/renderer.h"
+#include "support/gpu_fixture.h"
+#include "support/step_frames.h"
+#include "support/test_scenes.h"
+
+#include <algorithm>
+
+namespace froxel::test {
+namespace {
+
+using settings::Chroma;
+using settings::Encoding;
+
+class JpegFrame : public SharedGpuTest {
+  protected:
+    static void SetUpTestSuite() {
+        SharedGpuTest::SetUpTestSuite();
+        renderer_ = std::make_unique<render::Renderer>(device(), makeRoom());
+    }
+    static void TearDownTestSuite() {
+        renderer_.reset();
+        SharedGpuTest::TearDownTestSuite();
+    }
+    void SetUp() override {
+        view_ = std::make_unique<render::ViewRenderer>(*renderer_);
+        inputs_.settings.camera = settings::lookAt({2.5, 1.6, 3.5}, {0, 0.8, -1}, {0, 1, 0});
+        inputs_.settings.size = {150, 70};
+        inputs_.settings.lights.count = 20;
+        inputs_.keep_surfaces = true;
+    }
+
+    [[nodiscard]] static std::shared_ptr<const JpegFormat> formatOf(const Encoding& encoding) {
+        static encode::JpegFormats formats;
+        return *formats.of(encoding);
+    }
+    [[nodiscard]] render::RenderedFrame draw(const render::FrameInputs& inputs) {
+        const auto submitted = view_->submit(inputs);
+        EXPECT_TRUE(submitted) << submitted.error().message;
+        auto frame = view_->collect();
+        EXPECT_TRUE(frame) << frame.error().message;
+        return std::move(*frame);
+    }
+    // Draws both on the view, one after the other.
+    void expectFile(render::FrameInputs inputs, const Encoding& encoding) {
+        inputs.jpeg = nullptr;
+        const auto plain = draw(inputs);
+        ASSERT_NE(plain.pixels.view().data, nullptr);
+        EXPECT_TRUE(plain.pixels.view().jpeg.empty());
+        const auto expected = encode::JpegEncoder().encode(plain.pixels.view(), encoding);
+        ASSERT_TRUE(expected) << expected.error().message;
+        inputs.jpeg = formatOf(encoding);
+        const auto made = draw(inputs);
+        EXPECT_EQ(made.pixels.view().data, nullptr);
+        EXPECT_EQ(made.pixels.view().width_px, inputs.settings.size.width_px);
+        EXPECT_EQ(made.pixels.view().height_px, inputs.settings.size.height_px);
+        EXPECT_TRUE(std::ranges::equal(made.pixels.view().jpeg, *expected))
+            << made.pixels.view().jpeg.size() << " bytes for " << expected->size();
+    }
+
+    inline static std::unique_ptr<render::Renderer> renderer_;
+    std::unique_ptr<render::ViewRenderer> view_;
+    render::FrameInputs inputs_;
+};
+
+TEST_F(JpegFrame, OfEveryKind_IsTheFileOfItsPixels) {
+    for (const StepFrame& frame : stepFrames()) {
+        SCOPED_TRACE(frame.name);
+        auto inputs = inputs_;
+        frame.change(inputs);
+        expectFile(inputs, {.quality = 85});
+    }
+}
+
+TEST_F(JpegFrame, AfterOthersOfTheView_IsTheFileOfItsPixels) {
+    for (const uint32_t quality : {85U, 97U, 20U}) {
+        for (const Chroma chroma : {Chroma::k420, Chroma::k444}) {
+            for (const settings::Size size : {settings::Size{150, 70}, {64, 48}, {33, 95}}) {
+                inputs_.settings.size = size;
+                expectFile(inputs_, {.quality = quality, .chroma = chroma});
+            }
+        }
+    }
+}
+
+TEST_F(JpegFrame, SeveralInFlight_AreEachTheirOwn) {
+    const Encoding encoding{.quality = 90};
+    std::vector<std::vector<std::byte>> expected;
+    for (uint32_t seed = 1; seed <= 3; ++seed) {
+        inputs_.settings.lights.seed = seed;
+        inputs_.jpeg = nullptr;
+        const auto plain = draw(inputs_);
+        expected.push_back(*encode::JpegEncoder().encode(plain.pixels.view(), encoding));
+    }
+    inputs_.jpeg = formatOf(encoding);
+    for (uint32_t seed = 1; seed <= 2; ++seed) {
+        inputs_.settings.lights.seed = seed;
+        ASSERT_TRUE(view_->submit(inputs_));
+    }
+    for (size_t i = 0; i < 2; ++i) {
+        const auto frame = view_->collect();
+        ASSERT_TRUE(frame);
+        EXPECT_TRUE(std::ranges::equal(frame->pixels.view().jpeg, expected[i])) << i;
+    }
+    EXPECT_NE(expected[0], expected[1]);
+}
+
+TEST_F(JpegFrame, Passes_AreTimed) {
+    inputs_.jpeg = formatOf({.quality = 85});
+    const auto frame = draw(inputs_);
+    for (const char* name : {"jpeg_blocks", "jpeg_count", "jpeg_stuff"}) {
+        EXPECT_TRUE(std::ranges::any_of(frame.stats.passes, [name](const PassTime& pass) {
+            return pass.name == name;
+        })) << name;
+    }
+    EXPECT_TRUE(std::ranges::none_of(frame.stats.passes,
+                                     [](const PassTime& pass) { return pass.name == "readback"; }));
+}
+
+} // namespace
+} // namespace froxel::test
