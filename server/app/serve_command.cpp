@@ -54,6 +54,11 @@ void tellMemory(const render::MemoryLimits& limits, uint32_t sessions_max) {
 // A third of the weight of the render thread.
 constexpr int kCpuDeviceNiceness = 5;
 
+// Threads of each lane of the encoders.
+uint32_t encoderCount() {
+    return std::clamp(std::thread::hardware_concurrency() / 2, 1U, 16U);
+}
+
 // On the render thread, which owns all of it from then on.
 OpenedScene openScene(const ServeOptions& options, const ProgressReport& report) {
     report({"opening the device", 0.0});
@@ -80,9 +85,9 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
     report({"moving the scene to the device", 0.6});
     const render::MemoryLimits limits = memoryLimits(options.memory, *device);
     tellMemory(limits, options.sessions_max);
-    auto source = stream::makeRendererSource(std::move(device), *first.scene,
-                                             first.context.first_view.cameraFor(settings::Size{}),
-                                             Seconds(options.frame_limit_s), limits);
+    auto source = stream::makeRendererSource(
+        std::move(device), *first.scene, first.context.first_view.cameraFor(settings::Size{}),
+        Seconds(options.frame_limit_s), limits, {options.jpeg_encoder, encoderCount()});
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
     const uint64_t scene_bytes = sceneMemoryBytes(options.memory, limits);
@@ -174,7 +179,7 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     if (options.agones) {
         run.server.agones = agonesOptions(options);
     }
-    run.encoder_count = std::clamp(cores / 2, 1U, 16U);
+    run.encoder_count = encoderCount();
     run.catalogue = catalogueOf(options);
     run.server.catalogue = run.catalogue;
     run.open = [options](const auto& report) { return openScene(options, report); };

@@ -8,6 +8,7 @@
 #include "net/bind_address.h"
 #include "session/session_context.h"
 #include "settings/settings.h"
+#include "stream/jpeg_place.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -34,7 +35,8 @@ struct ServeOptions {
     MemoryOptions memory;            // of all sessions and each; absent: memory_limits.h
     // That active sessions must keep when another one joins; absent: by the device's kind.
     std::optional<double> min_rate_hz;
-    double frame_limit_s = 1;   // of the device's time, that one picture may take by its estimate
+    double frame_limit_s = 1; // of the device's time, that one picture may take by its estimate
+    stream::JpegPlace jpeg_encoder = stream::JpegPlace::kAuto;
     double resume_grace_s = 10; // how long a lost connection's session waits for it; 0: not at all
     // net::LobbyRules; absent: half of sessions_max.
     std::optional<uint32_t> sessions_per_address;

@@ -38,6 +38,7 @@ struct CodecRow {
     bool announced = false;     // only to clients whose Hello.codecs lists it; else all decode it
     bool frames_depend = false; // on those before them, back to a key frame: video
     bool lossless = false;      // and slow, so that it waits behind the others
+    bool on_device = false;     // a device may make its files
     Outputs outputs{};          // that it makes files of, in place of pixels
     RateControl rate_control = RateControl::kNone;
     EncoderMemory memory{};
@@ -45,7 +46,10 @@ struct CodecRow {
 
 // In the order of Codec: those that viewers choose first, those of stills alone last.
 inline constexpr std::array kCodecRows = {
-    CodecRow{.codec = Codec::kJpeg, .name = "jpeg", .rate_control = RateControl::kQuality},
+    CodecRow{.codec = Codec::kJpeg,
+             .name = "jpeg",
+             .on_device = true,
+             .rate_control = RateControl::kQuality},
     // Memory: measured with libvpx 1.12 from 640x360 to 4096x4096, references, what it knows of
     // every block, and threads: with the pictures 92 to 146 bytes a pixel, the most where pictures
     // are small.

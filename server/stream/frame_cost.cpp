@@ -94,7 +94,8 @@ class Series {
                 return false;
             }
             const auto work = views_[turn]->begin(
-                moving(), {}, {.encoding = {}, .limit_share = scale_.limitShare()});
+                moving(), {},
+                {.encoding = {.file = settings::Encoding()}, .limit_share = scale_.limitShare()});
             if (!work && work.error().code == ErrorCode::kTooLong &&
                 scale_.onTooLong(work.error().too_large_by, true)) {
                 return true;

@@ -19,7 +19,7 @@
 namespace froxel::stream {
 
 struct DrawnFrame {
-    PixelLease pixels;
+    PixelLease pixels;           // or their file, which no encoder is needed for
     uint64_t key_requests = 0;   // key frames asked for so far
     session::FrameRecord record; // what is known before encoding
     Seconds cost{0};             // of drawing it
@@ -54,6 +54,7 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
 
   private:
     void startEncoding();
+    void takeFile();
     [[nodiscard]] std::optional<encode::VideoJob> videoJob(const DrawnFrame& frame);
     void onEncoded(Result<EncodedFrame> result);
     void finish(Losses losses);

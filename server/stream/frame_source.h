@@ -28,7 +28,7 @@ struct FrameTime {
 };
 
 struct SourceFrame {
-    PixelLease pixels;
+    PixelLease pixels; // or their file
     FrameStats stats;
 };
 
@@ -47,6 +47,9 @@ struct Collected {
 struct EncodingNeeds {
     uint64_t bytes = 0; // of the same memory
     Outputs outputs{};  // beside the pixels
+    // As what the picture may come in place of its pixels, where the device makes such files
+    // (CodecRow::on_device); none: its pixels are wanted.
+    std::optional<settings::Encoding> file = std::nullopt;
 };
 
 // What else begin() is told.

@@ -426,6 +426,9 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
     terms.encoding = {std::max(encode::memoryBytes(with.encoding, settings.size),
                                encode::memoryBytes(frame.state.encoding, settings.size)),
                       settings::rowOf(with.encoding.codec).outputs};
+    if (frame.sample_count == 1) {
+        terms.encoding.file = with.encoding;
+    }
     settings.camera = frame.record.followed.value_or(settings.camera);
     if (frame.sample_count > 1) {
         settings.camera = settings::sampled(settings.camera, settings.size, frame.sample);

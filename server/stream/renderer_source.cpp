@@ -1,9 +1,11 @@
 #include "stream/renderer_source.h"
 
 #include "core/keep_for_good.h"
+#include "encode/jpeg_format.h"
 #include "render/view/device_speed.h"
 #include "render/view/renderer.h"
 #include "stream/device_pace.h"
+#include "stream/jpeg_choice.h"
 #include "stream/piece_share.h"
 
 #include <spdlog/spdlog.h>
@@ -30,6 +32,7 @@ struct DeviceWork {
     render::WorkLimits limits;
     DevicePace pace = {};
     bool is_host = false;
+    std::optional<encode::JpegFormats> jpegs = {}; // that the device makes; none: encoders do
 };
 
 class RendererView final : public ViewSource {
@@ -48,11 +51,21 @@ class RendererView final : public ViewSource {
         if (submitted_.empty()) {
             held_ = {};
         }
+        std::shared_ptr<const JpegFormat> jpeg;
+        if (work_.jpegs && terms.encoding.file &&
+            settings::rowOf(terms.encoding.file->codec).on_device) {
+            auto format = work_.jpegs->of(*terms.encoding.file);
+            if (!format) {
+                return format.error();
+            }
+            jpeg = std::move(*format);
+        }
         return view_.begin({.settings = settings,
                             .time_s = time.lights_s,
                             .playing = time.playing,
                             .keep_surfaces = true,
                             .outputs = terms.encoding.outputs,
+                            .jpeg = std::move(jpeg),
                             .beside_bytes = terms.encoding.bytes});
     }
     [[nodiscard]] Result<void> submitPiece() override {
@@ -181,6 +194,16 @@ class RendererSource final : public FrameSource {
         return render::measureSpeed(renderer_, device_->traits().is_cpu, camera);
     }
 
+    // Errors: deviceMakesJpegs()'s.
+    [[nodiscard]] Result<void> chooseJpeg(const JpegOptions& options) {
+        const auto chosen =
+            deviceMakesJpegs(on_, device_->traits().is_cpu, options.place, options.encoder_count);
+        if (chosen && *chosen) {
+            work_.jpegs.emplace();
+        }
+        return chosen ? Result<void>() : chosen.error();
+    }
+
     // A CPU device draws with the host's cores: a second frame would only make the first late.
     [[nodiscard]] uint32_t depth() const override { return device_->traits().is_cpu ? 1 : 2; }
 
@@ -236,14 +259,21 @@ std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> dev
                                                 const scene::Scene& scene,
                                                 const settings::Camera& camera,
                                                 Seconds frame_limit,
-                                                const render::MemoryLimits& memory) {
+                                                const render::MemoryLimits& memory,
+                                                const JpegOptions& jpeg) {
     auto source = std::make_unique<RendererSource>(std::move(device), scene, frame_limit, memory);
-    const auto speed = source->measureSpeed(camera);
-    if (!speed) {
-        if (speed.error().code == ErrorCode::kDevice) {
+    const auto fail = [&source](const Error& error) {
+        if (error.code == ErrorCode::kDevice) {
             keepForGood(std::move(source));
         }
-        throw StartupError(speed.error());
+        throw StartupError(error);
+    };
+    const auto speed = source->measureSpeed(camera);
+    if (!speed) {
+        fail(speed.error());
+    }
+    if (auto chosen = source->chooseJpeg(jpeg); !chosen) {
+        fail(chosen.error());
     }
     spdlog::info("event=device_speed lights={:.2f} surfaces={:.2f}", speed->lights,
                  speed->surfaces);

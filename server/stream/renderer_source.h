@@ -4,6 +4,7 @@
 #include "core/clock.h"
 #include "render/device/memory_budget.h"
 #include "stream/frame_source.h"
+#include "stream/jpeg_place.h"
 
 #include <memory>
 
@@ -27,6 +28,11 @@ inline constexpr Seconds kGpuLoop{0.05};
 // as the placing of a million lights, take a tenth of a second.
 inline constexpr Seconds kHostPart{0.03};
 
+struct JpegOptions {
+    JpegPlace place = JpegPlace::kHost;
+    uint32_t encoder_count = 1; // of the host
+};
+
 // Moves the scene to the device and measures how fast that is where `camera` looks; frames that
 // would take longer than `frame_limit` are refused. The scene is not needed afterwards. On the
 // render thread, which must also end what comes back. Throws StartupError, vk::SystemError.
@@ -34,6 +40,7 @@ inline constexpr Seconds kHostPart{0.03};
                                                               const scene::Scene& scene,
                                                               const settings::Camera& camera,
                                                               Seconds frame_limit,
-                                                              const render::MemoryLimits& memory);
+                                                              const render::MemoryLimits& memory,
+                                                              const JpegOptions& jpeg = {});
 
 } // namespace froxel::stream

@@ -2,14 +2,10 @@
 #include "../unit/encode/picture.h"
 #include "encode/jpeg_encoder.h"
 #include "encode/jpeg_format.h"
-#include "gpu/command_context.h"
-#include "render/pipelines/host_copies.h"
-#include "render/steps/jpeg_passes.h"
-#include "render/view/renderer.h"
+#include "render/view/jpeg_trial.h"
 #include "support/gpu_fixture.h"
 
 #include <algorithm>
-#include <cstring>
 #include <random>
 
 namespace froxel::test {
@@ -57,63 +53,36 @@ class DeviceJpeg : public SharedGpuTest {
     static void SetUpTestSuite() {
         SharedGpuTest::SetUpTestSuite();
         on_ = std::make_unique<render::RenderDevice>(device());
-        timestamps_ = std::make_unique<gpu::Timestamps>(device());
     }
     static void TearDownTestSuite() {
-        timestamps_.reset();
         on_.reset();
         SharedGpuTest::TearDownTestSuite();
     }
 
-    // Made so many times with the same buffers; the last one's file.
-    static std::vector<std::byte>
-    make(const Picture& picture, const Encoding& encoding, int times = 1, uint32_t room = 0) {
-        auto& shared = on_->resources();
-        auto& pipelines = shared.stored<render::JpegPipelines>();
+    static std::vector<std::byte> make(const Picture& picture,
+                                       const Encoding& encoding,
+                                       const render::JpegTrialOptions& options = {}) {
         const auto format = encode::jpegFormat(encoding);
         EXPECT_TRUE(format);
-        render::JpegSizes sizes({picture.width_px, picture.height_px}, *format);
-        sizes.picture.scan_bytes = room > 0 ? room : sizes.picture.scan_bytes;
-        const auto tables = render::jpegTables(*format);
-        gpu::MemoryArena arena(device());
-        const auto host = [&](size_t bytes, gpu::MemoryUse use) {
-            return arena.makeBuffer(bytes, vk::BufferUsageFlagBits::eStorageBuffer, use, "jpeg");
-        };
-        const auto pixels = host(picture.bytes.size(), gpu::MemoryUse::kUpload);
-        std::ranges::copy(picture.bytes, pixels.mapped);
-        const auto upload = host(sizeof(tables), gpu::MemoryUse::kUpload);
-        std::memcpy(upload.mapped, &tables, sizeof(tables));
-        const auto file = host(sizes.file_bytes, gpu::MemoryUse::kReadback);
-        render::writeJpegHeader(*format, sizes, file.mapped);
-        render::JpegScratch scratch(device(), sizes);
-        render::JpegSet set(device(), pipelines.setLayout());
-        set.write(device(), pixels, *upload.handle, 0, scratch, file);
-        for (int i = 0; i < times; ++i) {
-            timestamps_->reset();
-            shared.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
-                render::recordJpeg(cmd, *timestamps_, pipelines, *format, sizes, set, scratch);
-                render::recordHostRead(cmd);
-            });
-        }
-        const auto made = render::jpegFile(sizes, file.mapped);
-        return {made.begin(), made.end()};
+        const auto trial = render::tryJpeg(*on_, picture.view(), *format, options);
+        EXPECT_TRUE(trial) << trial.error().message;
+        return trial->file;
     }
 
-    static void expectSame(const Picture& picture, const Encoding& encoding, int times = 1) {
+    static void expectSame(const Picture& picture, const Encoding& encoding, uint32_t times = 1) {
         SCOPED_TRACE(testing::Message() << picture.width_px << "x" << picture.height_px
                                         << " quality " << encoding.quality
                                         << (encoding.chroma == Chroma::k444 ? " 4:4:4" : " 4:2:0"));
         static encode::JpegEncoder turbo;
         const auto expected = turbo.encode(picture.view(), encoding);
         ASSERT_TRUE(expected) << expected.error().message;
-        const auto made = make(picture, encoding, times);
+        const auto made = make(picture, encoding, {.times = times});
         const auto at = std::ranges::mismatch(made, *expected);
         EXPECT_TRUE(made == *expected) << made.size() << " bytes for " << expected->size()
                                        << ", the first that differs is " << at.in1 - made.begin();
     }
 
     inline static std::unique_ptr<render::RenderDevice> on_;
-    inline static std::unique_ptr<gpu::Timestamps> timestamps_;
 };
 
 constexpr std::array kChromas = {Chroma::k420, Chroma::k444};
@@ -181,8 +150,8 @@ TEST_F(DeviceJpeg, WhatDoesNotFit_IsNoFile) {
     const auto whole = make(picture, {.quality = 95});
     const auto format = encode::jpegFormat({.quality = 95});
     const auto scan_bytes = static_cast<uint32_t>(whole.size() - format->header.size());
-    EXPECT_EQ(make(picture, {.quality = 95}, 1, scan_bytes), whole);
-    EXPECT_TRUE(make(picture, {.quality = 95}, 1, scan_bytes - 1).empty());
+    EXPECT_EQ(make(picture, {.quality = 95}, {.scan_bytes = scan_bytes}), whole);
+    EXPECT_TRUE(make(picture, {.quality = 95}, {.scan_bytes = scan_bytes - 1}).empty());
 }
 
 } // namespace

@@ -77,6 +77,40 @@ TEST(RendererSource, NoMemoryForAView_IsRefusedAndTheNextOneMayFit) {
     EXPECT_TRUE(source->makeView());
 }
 
+// Pixels, or the file that the device made of them, as the frame's terms allow.
+TEST(RendererSource, PlaceOfJpegs_IsAsChosen) {
+    const scene::Scene room = makeRoom();
+    for (const auto place :
+         {stream::JpegPlace::kAuto, stream::JpegPlace::kHost, stream::JpegPlace::kDevice}) {
+        const LogText log;
+        const auto source = stream::makeRendererSource(openTestDevice(), room, wholeOf(room),
+                                                       Seconds(10), {}, {place, 1});
+        const bool compared = onGpu() && place == stream::JpegPlace::kAuto;
+        const bool on_device = place == stream::JpegPlace::kDevice;
+        EXPECT_EQ(log.text().find("event=jpeg_encoder") != std::string::npos,
+                  on_device || compared);
+        const auto view = source->makeView();
+        ASSERT_TRUE(view);
+        for (const auto codec : {settings::Codec::kJpeg, settings::Codec::kPng}) {
+            settings::ViewSettings settings;
+            settings.size = {64, 48};
+            const auto work = (*view)->begin(
+                settings, {}, {.encoding = {.file = settings::Encoding{.codec = codec}}});
+            ASSERT_TRUE(work) << work.error().message;
+            for (uint32_t i = 0; i < work->piece_count; ++i) {
+                ASSERT_TRUE((*view)->submitPiece());
+                const auto collected = (*view)->collect();
+                ASSERT_TRUE(collected);
+                if (!compared && collected->frame) {
+                    const PixelView& pixels = collected->frame->pixels.view();
+                    EXPECT_EQ(pixels.data == nullptr, on_device && codec == settings::Codec::kJpeg);
+                    EXPECT_EQ(pixels.jpeg.empty(), pixels.data != nullptr);
+                }
+            }
+        }
+    }
+}
+
 // What steps tell of themselves is in the schema, under the names that their rows have.
 TEST(StepRows, Figures_HaveFieldsOfTheHeader) {
     session::FrameRecord record;

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <latch>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -17,9 +19,15 @@ constexpr uint32_t kSide = 16;
 class FramePipelineTest : public testing::Test {
   protected:
     DrawnFrame frame(uint64_t id) {
+        return frameOf(id, {pixels_.data(), kSide, kSide, size_t{4} * kSide});
+    }
+    // Of which the device made a file; empty: it does not fit.
+    DrawnFrame file(uint64_t id, std::span<const std::byte> bytes) {
+        return frameOf(id, {.width_px = kSide, .height_px = kSide, .jpeg = bytes});
+    }
+    DrawnFrame frameOf(uint64_t id, const PixelView& view) {
         DrawnFrame drawn;
-        drawn.pixels = PixelLease({pixels_.data(), kSide, kSide, size_t{4} * kSide},
-                                  [this] { ++ended_leases_; });
+        drawn.pixels = PixelLease(view, [this] { ++ended_leases_; });
         drawn.record.frame_id = id;
         drawn.drawn_at = Clock::now();
         return drawn;
@@ -85,6 +93,56 @@ TEST_F(FramePipelineTest, Push_TwoFrames_ArriveInOrderAndEndTheirLeases) {
     EXPECT_EQ(pipeline->takeWork(), Seconds(0));
     EXPECT_EQ(fates_->not_encoded, 0U);
     EXPECT_EQ(ended_leases_, 2);
+}
+
+TEST_F(FramePipelineTest, Push_FileOfTheDevice_NeedsNoEncoder) {
+    encode::EncodePool pool(1, 1);
+    std::latch release(1);
+    occupy(pool, release);
+    occupy(pool, release);
+    const auto pipeline = makePipeline(pool);
+    std::vector<std::byte> bytes(100, std::byte{7});
+    pipeline->push(file(1, bytes));
+    ASSERT_EQ(sink_->frames().size(), 1U);
+    const auto ready = sink_->frames()[0];
+    std::ranges::fill(bytes, std::byte{0}); // the slot's, which is the next frame's
+    EXPECT_EQ(*ready.bytes, std::vector<std::byte>(100, std::byte{7}));
+    EXPECT_EQ(ready.record.encoded_bytes, 100U);
+    EXPECT_EQ(ready.record.encode_us, 0);
+    EXPECT_EQ(ready.record.encode_wait_us, 0);
+    EXPECT_TRUE(ready.record.key);
+    EXPECT_EQ(ended_leases_, 1);
+    EXPECT_EQ(pipeline->size(), 0U);
+    EXPECT_EQ(progress_, 1);
+    EXPECT_EQ(fates_->encoded, 1U);
+    release.count_down();
+}
+
+TEST_F(FramePipelineTest, Push_FileBehindAPictureInTheEncoder_LeavesAfterIt) {
+    encode::EncodePool pool(1, 4);
+    std::latch release(1);
+    occupy(pool, release);
+    const auto pipeline = makePipeline(pool);
+    const std::vector<std::byte> bytes(100);
+    pipeline->push(frame(1));
+    pipeline->push(file(2, bytes));
+    EXPECT_TRUE(sink_->frames().empty());
+    release.count_down();
+    ASSERT_TRUE(sink_->waitForFrames(2));
+    EXPECT_EQ(sink_->frames()[0].record.frame_id, 1U);
+    EXPECT_EQ(sink_->frames()[1].record.frame_id, 2U);
+}
+
+TEST_F(FramePipelineTest, Push_FileThatDoesNotFit_IsToldAndNotTriedAgain) {
+    encode::EncodePool pool(1, 4);
+    const auto pipeline = makePipeline(pool);
+    pipeline->push(file(1, {}));
+    EXPECT_TRUE(sink_->frames().empty());
+    EXPECT_EQ(fates_->not_encoded, 1U);
+    const auto losses = pipeline->takeLosses();
+    EXPECT_EQ(losses.count, 1U);
+    EXPECT_FALSE(losses.retry);
+    EXPECT_EQ(ended_leases_, 1);
 }
 
 // The view rested, and moves again before anything was done for the rest.
