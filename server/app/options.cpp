@@ -209,6 +209,9 @@ void addServe(CLI::App& app, Targets& targets) {
     addEnvironmentFile(command, options.environment_file);
     command.group("Scenes");
     command.device(options.device, options.validation);
+    command.name("--jpeg-encoder", options.jpeg_encoder, stream::kJpegPlaceNames,
+                 "Where JPEGs are made; auto: on a GPU that is faster than all encoder threads "
+                 "together, else on the host. The files are the same");
     command.pipelineCache(options.pipeline_cache);
     command.group("Device");
     addServeLimits(command, options);

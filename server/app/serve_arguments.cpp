@@ -125,9 +125,6 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
     command.number("--frame-limit", options.frame_limit_s, kFrameLimitRange,
                    "Seconds of device time that one picture may take, as estimated; longer ones "
                    "are drawn smaller");
-    command.name("--jpeg-encoder", options.jpeg_encoder, stream::kJpegPlaceNames,
-                 "Where JPEGs are made; auto: on a GPU that is faster than all encoder threads "
-                 "together, else on the host. The files are the same");
     command.number("--resume-grace", options.resume_grace_s, kGraceRange,
                    "Seconds that a session waits for its lost viewer");
     command.number("--max-sessions-per-address", options.sessions_per_address, kAccountRange,
