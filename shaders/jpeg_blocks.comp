@@ -225,7 +225,6 @@ void planChunks(uint code_bits) {
     state.code_bits = code_bits;
     uint chunks = (code_bits + 7u) / 8u / kJpegChunkBytes + 1u;
     state.count = JpegDispatch(chunks, 1u, 1u);
-    state.done[0] = 0u;
 }
 
 void main() {

@@ -16,7 +16,6 @@ void planFile(uint code_bytes, uint stuffed_bytes) {
     bool fits = bytes <= picture.scan_bytes;
     file[0] = fits ? bytes : 0u;
     state.stuff = JpegDispatch(fits ? state.count.x : 0u, 1u, 1u);
-    state.done[1] = 0u;
 }
 
 void main() {

@@ -48,12 +48,12 @@ struct JpegDispatch {
     uint z;
 };
 
-// Of one picture on its way; zero before the first.
+// Of one picture on its way; zero before it.
 struct JpegState {
     JpegDispatch count; // of the passes over chunks
     JpegDispatch stuff;
     uint code_bits;
-    uint done[2]; // workgroups, of either pass that adds up; zero in between
+    uint done[2]; // workgroups, of either pass that adds up
 };
 
 FROXEL_IO_NAMESPACE_END

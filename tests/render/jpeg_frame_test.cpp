@@ -107,6 +107,25 @@ TEST_F(JpegFrame, SeveralInFlight_AreEachTheirOwn) {
     EXPECT_NE(expected[0], expected[1]);
 }
 
+// Given up before its JPEG, and once more after that of another frame.
+TEST_F(JpegFrame, AfterAFrameThatWasGivenUp_IsTheFileOfItsPixels) {
+    render::WorkLimits fine;
+    fine.piece = Seconds(1e-4);
+    for (int i = 0; i < 2; ++i) {
+        view_ = std::make_unique<render::ViewRenderer>(*renderer_, render::ListLimits(), fine);
+        for (int k = 0; k <= i; ++k) {
+            inputs_.jpeg = formatOf({.quality = 85});
+            const auto work = view_->begin(inputs_);
+            ASSERT_TRUE(work) << work.error().message;
+            ASSERT_GT(work->piece_count, 1U);
+            ASSERT_TRUE(view_->submitPiece());
+            view_->abandon();
+            ASSERT_TRUE(view_->collectPiece());
+            expectFile(inputs_, {.quality = 85});
+        }
+    }
+}
+
 TEST_F(JpegFrame, Passes_AreTimed) {
     inputs_.jpeg = formatOf({.quality = 85});
     const auto frame = draw(inputs_);

@@ -159,7 +159,7 @@ void recordJpeg(const vk::raii::CommandBuffer& cmd,
                 const JpegFormat& format,
                 const JpegSizes& sizes,
                 const JpegSet& set,
-                JpegScratch& scratch) {
+                const JpegScratch& scratch) {
     const auto bind = [&](JpegPass pass) {
         cmd.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines.pipeline(pass, format));
     };
@@ -170,10 +170,9 @@ void recordJpeg(const vk::raii::CommandBuffer& cmd,
                                        sizes.picture);
     {
         const gpu::PassScope scope(timestamps, cmd, pass::kJpegBlocks);
-        if (!scratch.noteCleared()) {
-            cmd.fillBuffer(state, 0, VK_WHOLE_SIZE, 0);
-            computeAfterTransfer(cmd);
-        }
+        // Each time: the frame before may have been given up in the middle.
+        cmd.fillBuffer(state, 0, VK_WHOLE_SIZE, 0);
+        computeAfterTransfer(cmd);
         bind(JpegPass::kBlocks);
         cmd.dispatch(sizes.run_count, 1, 1);
     }

@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <string>
 #include <tuple>
-#include <utility>
 
 namespace froxel::render {
 
@@ -55,10 +54,6 @@ class JpegScratch final : public StepTargets {
     [[nodiscard]] bool fits(const JpegSizes& sizes) const {
         return sums_.size_bytes == sizes.sum_bytes && codes_.size_bytes == sizes.code_bytes;
     }
-    void begin() override { cleared_ = false; }
-    // Whether a frame that was recorded before has cleared the counters, which passes leave as they
-    // find them; from now on one has.
-    [[nodiscard]] bool noteCleared() { return std::exchange(cleared_, true); }
     [[nodiscard]] const gpu::Buffer& state() const { return state_; }
     [[nodiscard]] const gpu::Buffer& sums() const { return sums_; }
     [[nodiscard]] const gpu::Buffer& codes() const { return codes_; }
@@ -68,7 +63,6 @@ class JpegScratch final : public StepTargets {
     gpu::Buffer state_;
     gpu::Buffer sums_;
     gpu::Buffer codes_;
-    bool cleared_ = false;
 };
 
 // One a frame slot.
@@ -98,6 +92,6 @@ void recordJpeg(const vk::raii::CommandBuffer& cmd,
                 const JpegFormat& format,
                 const JpegSizes& sizes,
                 const JpegSet& set,
-                JpegScratch& scratch);
+                const JpegScratch& scratch);
 
 } // namespace froxel::render
