@@ -11,6 +11,7 @@ namespace froxel::app {
 namespace {
 
 constexpr settings::Range<uint32_t> kViewersRange{"viewers", 1, 10'000};
+constexpr settings::Range<uint32_t> kThreadsRange{"threads", 1, 1024};
 constexpr settings::Range<double> kSecondsRange{"seconds", 0.1, 86'400.0};
 constexpr settings::Range<uint32_t> kShareRange{"share", 1, 10'000};
 constexpr settings::Range<double> kRampRange{"ramp", 0.0, 3'600.0};
@@ -86,6 +87,10 @@ Result<std::string> parseRoom(const std::string& text) {
 void addViewers(CommandBuilder& command, LoadOptions& options) {
     auto* const viewers = command.number("--viewers", options.viewer_count, kViewersRange, "1",
                                          "Viewers at once; with --find the most that are tried");
+    command.number("--threads", options.thread_count, kThreadsRange,
+                   "one for 32 viewers, at most one a core",
+                   "Threads that play the viewers: as many cores at most are taken from a server "
+                   "on the same host");
     auto* const seconds = command.number("--seconds", options.seconds, kSecondsRange,
                                          "Duration of the measurement; with --find of each trial");
     command

@@ -110,14 +110,14 @@ load::ViewerOptions viewerOptions(const LoadOptions& options) {
     return viewer;
 }
 
-uint32_t threadsFor(uint32_t viewer_count) {
+uint32_t threadsFor(const LoadOptions& options, uint32_t viewer_count) {
     const uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
-    return std::clamp(viewer_count / kViewersPerThread, 1U, cores);
+    return options.thread_count.value_or(std::clamp(viewer_count / kViewersPerThread, 1U, cores));
 }
 
 void setViewers(load::RunOptions& run, const LoadOptions& options, uint32_t viewer_count) {
     run.visits = load::visitsOver(Seconds(options.ramp_s), viewer_count);
-    run.thread_count = threadsFor(viewer_count);
+    run.thread_count = threadsFor(options, viewer_count);
 }
 
 load::RunOptions runOptions(const LoadOptions& options) {
@@ -131,7 +131,7 @@ load::RunOptions runOptions(const LoadOptions& options) {
         run.measures_together = false;
         run.seconds = load::lengthOf(options.stages);
         run.visits = load::visitsOf(options.stages);
-        run.thread_count = threadsFor(load::mostViewersOf(options.stages));
+        run.thread_count = threadsFor(options, load::mostViewersOf(options.stages));
     }
     return run;
 }

@@ -17,6 +17,7 @@ namespace froxel::app {
 struct LoadOptions {
     std::string url; // as given
     load::Target target;
+    std::optional<uint32_t> thread_count; // that play viewers; absent: by their number
     std::optional<uint32_t> viewer_count; // absent: 1, or with `find` 10,000
     double seconds = 10;                  // with `find`, of each trial
     std::vector<std::string> scripts;     // NAME[:SHARE]; none: orbit

@@ -224,7 +224,8 @@ Json loadSetup(const LoadOptions& options, const load::RunOptions& run) {
             {"lights", orNull(options.light_count)},
             {"codec", settings::rowOf(options.codec).name},
             {"video_kbps", orNull(options.video_kbps)},
-            {"host", {{"threads", std::thread::hardware_concurrency()}}}};
+            {"host", {{"threads", std::thread::hardware_concurrency()}}},
+            {"threads", run.thread_count}};
 }
 
 Json loadReport(const LoadOptions& options,
@@ -253,6 +254,7 @@ Json loadReport(const LoadOptions& options,
                    {"measured_s", result.seconds},
                    {"stopped", result.stopped},
                    {"ended_early", result.ended_early},
+                   {"busy_cores", result.busy_cores},
                    {"requirements", outcomesOf(verdict.outcomes)},
                    {"broken", orNull(brokenLine(verdict))},
                    {"all", figuresOf(load::pool(result))},
@@ -287,6 +289,8 @@ std::string loadTable(const RunResult& result, const LoadVerdict& verdict) {
     table += fmt::format("longest wait for a due frame: {} ms; commands that no frame showed: {}\n",
                          shown(all.measured.samples.interval_ms, &report::Summary::max),
                          all.measured.commands_unshown);
+    table += fmt::format("this client: {:.1f} of the host's {} cores\n", result.busy_cores,
+                         std::thread::hardware_concurrency());
     if (all.measured.first_error) {
         table += fmt::format("first error: {}\n", *all.measured.first_error);
     }

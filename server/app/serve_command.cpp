@@ -56,7 +56,7 @@ constexpr int kCpuDeviceNiceness = 5;
 
 // Threads of each lane of the encoders.
 uint32_t encoderCount() {
-    return std::clamp(std::thread::hardware_concurrency() / 2, 1U, 16U);
+    return std::max(1U, std::thread::hardware_concurrency() / 2);
 }
 
 // On the render thread, which owns all of it from then on.
@@ -167,7 +167,7 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.version = FROXEL_VERSION;
     run.server.bind = {options.address, options.port};
     run.server.admin = options.admin;
-    run.server.thread_count = std::clamp(cores / 8, 1U, 4U);
+    run.server.thread_count = std::max(1U, cores / 8);
     run.server.connections_max = options.connections_max;
     run.server.lobby = lobbyRules(options);
     run.server.stills.per_minute = options.stills_per_minute;

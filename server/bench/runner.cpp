@@ -1,12 +1,12 @@
 #include "bench/runner.h"
 
 #include "core/clock.h"
+#include "core/cpu_time.h"
 #include "core/error.h"
 #include "render/view/renderer.h"
 #include "report/frame_step.h"
 
 #include <algorithm>
-#include <ctime>
 #include <map>
 #include <optional>
 #include <utility>
@@ -19,13 +19,6 @@ constexpr const char* kStopped = "the run was stopped before";
 
 double secondsSince(TimePoint start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Microseconds of CPU that all threads of this process have used.
-double processCpuUs() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
 }
 
 Result<FrameStats> drawFrame(render::ViewRenderer& viewer, const render::FrameInputs& inputs) {
@@ -131,13 +124,13 @@ void Runner::draw(const Turn& turn, const Row& row, double time_s, RowTimes& tim
     for (uint32_t i = 0; i < budget_.warmup_frames + turn.frame_count && !stop_; ++i) {
         const bool counts = i >= budget_.warmup_frames;
         inputs.time_s = timeOf(turn.first_frame + (counts ? i - budget_.warmup_frames : 0));
-        const double cpu_us = processCpuUs();
+        const auto cpu = processTime();
         auto stats = drawFrame(viewer, inputs);
         if (!stats) {
             return skip(times, stats.error());
         }
         if (counts) {
-            add(times, std::move(*stats), processCpuUs() - cpu_us);
+            add(times, std::move(*stats), Microseconds(processTime() - cpu).count());
         }
     }
 }

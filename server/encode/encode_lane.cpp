@@ -1,11 +1,11 @@
 #include "encode/encode_lane.h"
 
 #include "core/assert.h"
+#include "core/cpu_time.h"
 #include "core/thread_name.h"
 
 #include <algorithm>
 #include <atomic>
-#include <ctime>
 #include <new>
 #include <type_traits>
 #include <unistd.h>
@@ -23,14 +23,6 @@ std::invoke_result_t<Make> withinMemory(const Make& make) {
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::kCapacity, "no memory for the encoded picture"};
     }
-}
-
-// What this thread has worked so far.
-std::chrono::microseconds threadTime() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return std::chrono::duration_cast<std::chrono::microseconds>(
-        std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec));
 }
 
 } // namespace
@@ -61,7 +53,7 @@ struct EncodeLane::Work {
         } else if (!failed.exchange(true)) {
             error = encoded.error();
         }
-        busy_us += (threadTime() - begin).count();
+        busy_ns += (threadTime() - begin).count();
         if (finished.fetch_add(1) + 1 == views.size()) {
             auto frame = withinMemory([&] { return join(encoder); });
             job.pixels.end();
@@ -83,7 +75,9 @@ struct EncodeLane::Work {
         frame.key = key;
         frame.wait_us = Microseconds(started_at - queued_at).count();
         frame.encode_us = Microseconds(Clock::now() - started_at).count();
-        frame.busy_us = encoder.hasThreads() ? frame.encode_us : static_cast<double>(busy_us);
+        frame.busy_us = encoder.hasThreads()
+                            ? frame.encode_us
+                            : Microseconds(std::chrono::nanoseconds(busy_ns)).count();
         return frame;
     }
 
@@ -94,7 +88,7 @@ struct EncodeLane::Work {
     std::vector<std::vector<std::byte>> parts; // of each view
     size_t taken = 0;                          // views that a thread has; under the mutex
     std::atomic<size_t> finished = 0;
-    std::atomic<int64_t> busy_us = 0; // of all threads, before joining
+    std::atomic<int64_t> busy_ns = 0; // of all threads, before joining
     std::atomic<bool> failed = false;
     std::atomic<bool> key = true; // all parts are
     Error error;                  // written once, by whom set `failed`; read after the last part

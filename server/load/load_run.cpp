@@ -1,6 +1,7 @@
 #include "load/load_run.h"
 
 #include "core/assert.h"
+#include "core/cpu_time.h"
 #include "core/thread_name.h"
 
 #include <boost/asio/executor_work_guard.hpp>
@@ -68,9 +69,11 @@ class Run {
             measuring_ = true;
             forAll([begin](Viewer& viewer) { viewer.begin(begin); });
         }
+        const auto busy_before = processTime();
         const auto length = std::chrono::duration_cast<Clock::duration>(options_.seconds);
         watch(begin + length, [this] { return ended_ == count(); });
         const TimePoint end = Clock::now();
+        const Seconds busy = processTime() - busy_before;
         if (end - last_look_ >= kLeastSecond) {
             const bool ended_early = ended_early_;
             look();
@@ -85,7 +88,9 @@ class Run {
             crew.io.stop(); // what is left are Beast's timers for connections that have ended
             crew.thread.join();
         }
-        return {collect(), Seconds(end - begin).count(), stop_.stop_requested(), ended_early_};
+        const Seconds measured = end - begin;
+        return {collect(), measured.count(), stop_.stop_requested(), ended_early_,
+                measured > Seconds(0) ? busy / measured : 0};
     }
 
   private:

@@ -41,6 +41,7 @@ struct RunResult {
     double seconds = 0;                // measured; less than asked for when stopped
     bool stopped = false;              // by `stop`
     bool ended_early = false;          // by `each_second`
+    double busy_cores = 0;             // of this process, on the whole, over the time measured
 };
 
 // Blocks for as long as that takes, ending early on `stop`, when `each_second` says false, or when

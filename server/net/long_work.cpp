@@ -3,7 +3,6 @@
 #include "core/thread_name.h"
 #include "net/guard.h"
 
-#include <ctime>
 #include <sys/resource.h>
 
 namespace froxel::net {
@@ -13,12 +12,6 @@ namespace {
 constexpr int kNiceness = 10;
 
 } // namespace
-
-Seconds threadTime() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
 
 LongWork::LongWork(uint32_t thread_count)
     : io_(static_cast<int>(thread_count)), open_(io_.get_executor()) {

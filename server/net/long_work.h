@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/clock.h"
+#include "core/cpu_time.h"
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
@@ -14,9 +15,6 @@
 #include <vector>
 
 namespace froxel::net {
-
-// Processor time of the calling thread.
-[[nodiscard]] Seconds threadTime();
 
 class LongWork {
   public:
