@@ -9,7 +9,7 @@
 layout(local_size_x = kJpegGroup) in;
 #include "lib/jpeg.glsl"
 #include "lib/jpeg_dct.glsl"
-#include "lib/jpeg_samples.glsl"
+#include "lib/ycc_samples.glsl"
 
 // A row takes nine words, so that neither rows nor columns of several blocks meet in a bank.
 const uint kRow = 9u;

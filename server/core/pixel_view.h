@@ -8,10 +8,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 
 namespace froxel {
+
+// Borrowed planes of a byte a sample: luma, blue's and red's difference, full range (JFIF), top row
+// first. Chroma of 4:2:0 has half of either side, rounded up.
+struct PlaneView {
+    std::array<const std::byte*, 3> data{};
+    std::array<size_t, 3> stride_bytes{};
+};
 
 // Borrowed RGBA8 pixels, sRGB-encoded, alpha 255, top row first.
 struct PixelView {
@@ -23,7 +31,8 @@ struct PixelView {
     // pixel and down it.
     std::array<const float*, kOutputCount> outputs{};
     uint32_t output_samples = 1;
-    // The picture as this file, made on the device, in place of `data`.
+    // In place of `data`, made on the device: planes, or the picture as this file.
+    std::optional<PlaneView> planes = {};
     std::span<const std::byte> jpeg = {};
 
     [[nodiscard]] const float* output(Output which) const {

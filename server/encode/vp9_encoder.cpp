@@ -36,13 +36,14 @@ Error invalid(std::string message) {
 }
 
 Result<void> check(const PixelView& pixels, const settings::Encoding& encoding) {
-    if (pixels.data == nullptr || pixels.width_px == 0 || pixels.height_px == 0 ||
-        pixels.width_px > kMaxSidePx || pixels.height_px > kMaxSidePx) {
+    const bool empty = pixels.data == nullptr && !pixels.planes;
+    if (empty || pixels.width_px == 0 || pixels.height_px == 0 || pixels.width_px > kMaxSidePx ||
+        pixels.height_px > kMaxSidePx) {
         return invalid("video of " + numberText(pixels.width_px) + "x" +
                        numberText(pixels.height_px) + " pixels; 1 to " + numberText(kMaxSidePx) +
                        " a side are possible");
     }
-    if (pixels.stride_bytes < pixels.width_px * kPixelBytes) {
+    if (!pixels.planes && pixels.stride_bytes < pixels.width_px * kPixelBytes) {
         return invalid("video from rows of " + numberText(pixels.stride_bytes) + " bytes; " +
                        numberText(pixels.width_px) + " pixels need " +
                        numberText(pixels.width_px * kPixelBytes));
@@ -109,8 +110,10 @@ struct Vp9Encoder::Stream {
                chroma == encoding.chroma;
     }
     [[nodiscard]] Result<void> setRate(uint32_t kbps);
-    [[nodiscard]] Result<void> convert(const PixelView& pixels);
-    [[nodiscard]] Result<EncodedPart> compress(bool key, TimePoint drawn_at);
+    // What is to be compressed: the picture's planes, or `image` once they were made of its pixels.
+    [[nodiscard]] Result<vpx_image_t> convert(const PixelView& pixels);
+    [[nodiscard]] Result<EncodedPart>
+    compress(const vpx_image_t& planes, bool key, TimePoint drawn_at);
     [[nodiscard]] Error failure(const char* what) {
         const char* detail = vpx_codec_error_detail(&codec);
         return {ErrorCode::kIo, std::string("libvpx: ") + what + ": " + vpx_codec_error(&codec) +
@@ -179,7 +182,16 @@ Result<void> Vp9Encoder::Stream::setRate(uint32_t kbps) {
 }
 
 // Rows of chroma that an odd size leaves half are in the image's own padding.
-Result<void> Vp9Encoder::Stream::convert(const PixelView& pixels) {
+Result<vpx_image_t> Vp9Encoder::Stream::convert(const PixelView& pixels) {
+    if (pixels.planes) {
+        vpx_image_t lent = image;
+        for (size_t i = 0; i < pixels.planes->data.size(); ++i) {
+            const auto* plane = reinterpret_cast<const unsigned char*>(pixels.planes->data[i]);
+            lent.planes[i] = const_cast<unsigned char*>(plane); // libvpx only reads it
+            lent.stride[i] = static_cast<int>(pixels.planes->stride_bytes[i]);
+        }
+        return lent;
+    }
     const int status =
         tjEncodeYUVPlanes(converter, reinterpret_cast<const unsigned char*>(pixels.data),
                           static_cast<int>(pixels.width_px), static_cast<int>(pixels.stride_bytes),
@@ -188,16 +200,17 @@ Result<void> Vp9Encoder::Stream::convert(const PixelView& pixels) {
     if (status != 0) {
         return Error{ErrorCode::kIo, std::string("TurboJPEG: ") + tjGetErrorStr2(converter)};
     }
-    return {};
+    return image;
 }
 
-Result<EncodedPart> Vp9Encoder::Stream::compress(bool key, TimePoint drawn_at) {
+Result<EncodedPart>
+Vp9Encoder::Stream::compress(const vpx_image_t& planes, bool key, TimePoint drawn_at) {
     const Seconds since = next_us == 0 ? kFirstInterval : Seconds(drawn_at - last_drawn_at);
     const auto interval_us =
         static_cast<int64_t>(Microseconds(std::clamp(since, kMinInterval, kMaxInterval)).count());
     last_drawn_at = drawn_at;
     next_us += interval_us;
-    if (vpx_codec_encode(&codec, &image, next_us, static_cast<unsigned long>(interval_us),
+    if (vpx_codec_encode(&codec, &planes, next_us, static_cast<unsigned long>(interval_us),
                          key ? VPX_EFLAG_FORCE_KF : 0, VPX_DL_REALTIME) != VPX_CODEC_OK) {
         return failure("a picture was refused");
     }
@@ -238,10 +251,11 @@ Result<EncodedPart> Vp9Encoder::encode(const PixelView& pixels,
         if (const auto set = stream_->setRate(encoding.video_kbps); !set) {
             return set.error();
         }
-        if (const auto converted = stream_->convert(pixels); !converted) {
-            return converted.error();
+        const auto planes = stream_->convert(pixels);
+        if (!planes) {
+            return planes.error();
         }
-        return stream_->compress(key, drawn_at);
+        return stream_->compress(*planes, key, drawn_at);
     }();
     if (!frame) {
         stream_.reset();

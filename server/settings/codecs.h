@@ -3,6 +3,7 @@
 // encode/encoder.cpp.
 #pragma once
 
+#include "core/host_form.h"
 #include "core/outputs.h"
 
 #include <algorithm>
@@ -38,8 +39,9 @@ struct CodecRow {
     bool announced = false;     // only to clients whose Hello.codecs lists it; else all decode it
     bool frames_depend = false; // on those before them, back to a key frame: video
     bool lossless = false;      // and slow, so that it waits behind the others
-    bool on_device = false;     // a device may make its files
-    Outputs outputs{};          // that it makes files of, in place of pixels
+    // In which its encoder takes pictures from a device that makes it; a file needs no encoder.
+    PictureForm device_form = PictureForm::kPixels;
+    Outputs outputs{}; // that it makes files of, in place of pixels
     RateControl rate_control = RateControl::kNone;
     EncoderMemory memory{};
 };
@@ -48,7 +50,7 @@ struct CodecRow {
 inline constexpr std::array kCodecRows = {
     CodecRow{.codec = Codec::kJpeg,
              .name = "jpeg",
-             .on_device = true,
+             .device_form = PictureForm::kFile,
              .rate_control = RateControl::kQuality},
     // Memory: measured with libvpx 1.12 from 640x360 to 4096x4096, references, what it knows of
     // every block, and threads: with the pictures 92 to 146 bytes a pixel, the most where pictures
@@ -57,6 +59,7 @@ inline constexpr std::array kCodecRows = {
              .name = "vp9",
              .announced = true,
              .frames_depend = true,
+             .device_form = PictureForm::kPlanes,
              .rate_control = RateControl::kBitrate,
              .memory = {.base_bytes = 16 << 20U, .bytes_420 = 100, .bytes_444 = 130}},
     CodecRow{.codec = Codec::kPng, .name = "png", .chosen = false, .lossless = true},

@@ -93,9 +93,9 @@ class Series {
             if (!views_[turn]->canBegin()) {
                 return false;
             }
-            const auto work = views_[turn]->begin(
-                moving(), {},
-                {.encoding = {.file = settings::Encoding()}, .limit_share = scale_.limitShare()});
+            const auto work = views_[turn]->begin(moving(), {},
+                                                  {.encoding = {.becomes = settings::Encoding()},
+                                                   .limit_share = scale_.limitShare()});
             if (!work && work.error().code == ErrorCode::kTooLong &&
                 scale_.onTooLong(work.error().too_large_by, true)) {
                 return true;

@@ -13,7 +13,7 @@ namespace {
 
 // Whether the device made a file of it, or was to.
 bool isFile(const PixelView& view) {
-    return view.data == nullptr;
+    return view.data == nullptr && !view.planes;
 }
 
 settings::Codec codecOf(const DrawnFrame& frame) {

@@ -28,7 +28,7 @@ struct FrameTime {
 };
 
 struct SourceFrame {
-    PixelLease pixels; // or their file
+    PixelLease pixels; // in the form that was allowed
     FrameStats stats;
 };
 
@@ -47,9 +47,9 @@ struct Collected {
 struct EncodingNeeds {
     uint64_t bytes = 0; // of the same memory
     Outputs outputs{};  // beside the pixels
-    // As what the picture may come in place of its pixels, where the device makes such files
-    // (CodecRow::on_device); none: its pixels are wanted.
-    std::optional<settings::Encoding> file = std::nullopt;
+    // What it becomes, so that a device may give it in the form that this takes
+    // (CodecRow::device_form); none: its pixels are wanted.
+    std::optional<settings::Encoding> becomes = std::nullopt;
 };
 
 // What else begin() is told.

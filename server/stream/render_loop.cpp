@@ -427,7 +427,7 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
                                encode::memoryBytes(frame.state.encoding, settings.size)),
                       settings::rowOf(with.encoding.codec).outputs};
     if (frame.sample_count == 1) {
-        terms.encoding.file = with.encoding;
+        terms.encoding.becomes = with.encoding;
     }
     settings.camera = frame.record.followed.value_or(settings.camera);
     if (frame.sample_count > 1) {

@@ -1,7 +1,7 @@
 #include "stream/renderer_source.h"
 
 #include "core/keep_for_good.h"
-#include "encode/jpeg_format.h"
+#include "encode/host_form.h"
 #include "render/view/device_speed.h"
 #include "render/view/renderer.h"
 #include "stream/device_pace.h"
@@ -32,7 +32,7 @@ struct DeviceWork {
     render::WorkLimits limits;
     DevicePace pace = {};
     bool is_host = false;
-    std::optional<encode::JpegFormats> jpegs = {}; // that the device makes; none: encoders do
+    std::optional<encode::JpegFormats> jpegs = {}; // none: pictures come as pixels
 };
 
 class RendererView final : public ViewSource {
@@ -51,21 +51,20 @@ class RendererView final : public ViewSource {
         if (submitted_.empty()) {
             held_ = {};
         }
-        std::shared_ptr<const JpegFormat> jpeg;
-        if (work_.jpegs && terms.encoding.file &&
-            settings::rowOf(terms.encoding.file->codec).on_device) {
-            auto format = work_.jpegs->of(*terms.encoding.file);
-            if (!format) {
-                return format.error();
+        HostForm form;
+        if (work_.jpegs && terms.encoding.becomes) {
+            auto taken = encode::hostForm(*work_.jpegs, *terms.encoding.becomes);
+            if (!taken) {
+                return taken.error();
             }
-            jpeg = std::move(*format);
+            form = std::move(*taken);
         }
         return view_.begin({.settings = settings,
                             .time_s = time.lights_s,
                             .playing = time.playing,
                             .keep_surfaces = true,
                             .outputs = terms.encoding.outputs,
-                            .jpeg = std::move(jpeg),
+                            .form = std::move(form),
                             .beside_bytes = terms.encoding.bytes});
     }
     [[nodiscard]] Result<void> submitPiece() override {

@@ -91,11 +91,12 @@ TEST(RendererSource, PlaceOfJpegs_IsAsChosen) {
                   on_device || compared);
         const auto view = source->makeView();
         ASSERT_TRUE(view);
-        for (const auto codec : {settings::Codec::kJpeg, settings::Codec::kPng}) {
+        for (const auto codec :
+             {settings::Codec::kJpeg, settings::Codec::kVp9, settings::Codec::kPng}) {
             settings::ViewSettings settings;
             settings.size = {64, 48};
             const auto work = (*view)->begin(
-                settings, {}, {.encoding = {.file = settings::Encoding{.codec = codec}}});
+                settings, {}, {.encoding = {.becomes = settings::Encoding{.codec = codec}}});
             ASSERT_TRUE(work) << work.error().message;
             for (uint32_t i = 0; i < work->piece_count; ++i) {
                 ASSERT_TRUE((*view)->submitPiece());
@@ -103,8 +104,10 @@ TEST(RendererSource, PlaceOfJpegs_IsAsChosen) {
                 ASSERT_TRUE(collected);
                 if (!compared && collected->frame) {
                     const PixelView& pixels = collected->frame->pixels.view();
-                    EXPECT_EQ(pixels.data == nullptr, on_device && codec == settings::Codec::kJpeg);
-                    EXPECT_EQ(pixels.jpeg.empty(), pixels.data != nullptr);
+                    EXPECT_EQ(!pixels.jpeg.empty(), on_device && codec == settings::Codec::kJpeg);
+                    EXPECT_EQ(pixels.planes.has_value(),
+                              on_device && codec == settings::Codec::kVp9);
+                    EXPECT_EQ(pixels.data == nullptr, on_device && codec != settings::Codec::kPng);
                 }
             }
         }

@@ -134,7 +134,7 @@ class FakeView final : public stream::ViewSource {
         built_count_ = 0;
         ++device_->begun_count;
         device_->addBegun(settings);
-        device_->file_count += encoding.file ? 1U : 0U;
+        device_->formed_count += encoding.becomes ? 1U : 0U;
         waiting_ = device_->piece_count;
         frames_.push_back({settings, encoding.outputs.has(Output::kRadiance), waiting_});
         const auto estimate = device_->estimate.load();

@@ -39,7 +39,7 @@ class FakeDevice {
     std::atomic<uint64_t> begun_count = 0;
     std::atomic<uint64_t> unfit_count = 0;     // that did not begin, being too large
     std::atomic<uint64_t> beside_bytes = 0;    // as begin() was last told
-    std::atomic<uint64_t> file_count = 0;      // of frames that begin() was told may come as files
+    std::atomic<uint64_t> formed_count = 0;    // frames that may come in another form than pixels
     std::atomic<uint64_t> submitted_count = 0; // pieces
     std::atomic<uint64_t> abandoned_count = 0; // frames
     std::atomic<uint64_t> collect_count = 0;   // calls

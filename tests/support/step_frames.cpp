@@ -91,8 +91,9 @@ const std::array kFrames = {
               [](FrameInputs& f) {
                   static const auto format =
                       std::make_shared<const JpegFormat>(*encode::jpegFormat({.quality = 85}));
-                  f.jpeg = format;
+                  f.form.jpeg = format;
               }},
+    StepFrame{"planes", [](FrameInputs& f) { f.form.plane_sampling = 2; }},
     StepFrame{"depth", [](FrameInputs& f) { f.outputs = {Output::kDepth}; }},
 };
 

@@ -2,14 +2,13 @@
 #pragma once
 
 #include "core/clock.h"
-#include "core/jpeg_format.h"
+#include "core/host_form.h"
 #include "core/outputs.h"
 #include "motion/playback.h"
 #include "render/frame/frame_plan.h"
 #include "settings/settings.h"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 namespace froxel::render {
@@ -31,8 +30,7 @@ struct FrameInputs {
     // whoever measures what a whole frame takes.
     bool keep_surfaces = false;
     Outputs outputs = {}; // that its pixels come with
-    // Pixels come as a file of this kind, made on the device; null: as they are.
-    std::shared_ptr<const JpegFormat> jpeg = {};
+    HostForm form = {};   // of the picture
     // For tests and measurements.
     GenericParts generic = {};
     bool spoil_scratch = false; // whatever a frame with kept surfaces must not read is overwritten

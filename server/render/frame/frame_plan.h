@@ -2,6 +2,7 @@
 // there is to draw. What is not planned is neither recorded nor allocated.
 #pragma once
 
+#include "core/host_form.h"
 #include "core/outputs.h"
 #include "render/frame/step_plan.h"
 #include "render/pipelines/material_flags.h"
@@ -34,8 +35,8 @@ struct FrameFacts {
     uint32_t gbuffer = 0;
     SolidGeometry geometry = SolidGeometry::kRaster;
     ListPlace lists = ListPlace::kHost;
-    Outputs outputs = {};             // that are asked for
-    bool makes_jpeg = false;          // pixels come to the host as a file
+    Outputs outputs = {}; // that are asked for
+    PictureForm form = PictureForm::kPixels;
     bool layers_visible = false;      // solid surfaces with layers are drawn by the rasteriser
     bool transparent_visible = false; // blended surfaces are in view
     bool unlit_solid = false;         // SceneNeeds::unlit

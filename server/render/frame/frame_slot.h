@@ -70,7 +70,7 @@ struct Readback {
 
     const ReadbackBytes bytes;
     gpu::MemoryArena arena;
-    gpu::Buffer buffer;                            // packed pixels, or a file of them
+    gpu::Buffer buffer;                            // packed pixels, planes or a file of them
     std::array<gpu::Buffer, kOutputCount> outputs; // null handle: it is not asked for
     std::atomic<bool> leased{false};
 

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/frame_stats.h"
-#include "core/jpeg_format.h"
+#include "core/host_form.h"
 #include "light/frame_lights.h"
 #include "render/frame/debug_frame.h"
 #include "render/frame/draw_list.h"
@@ -38,9 +38,9 @@ struct StepInputs {
     const light::FrameLights& lights;
     const DrawList& draws;
     const DebugFrame& debug; // of a frame with a debug view
+    const HostForm& form;    // of the picture
     double time_s = 0;
     bool keeps = false; // what rests since the frame before need not be drawn again
-    std::shared_ptr<const JpegFormat> jpeg = {}; // of a frame whose pixels become a file
 };
 
 // One view's, made when a frame first has it. Only frames that have it call it, but for

@@ -4,8 +4,10 @@
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
 #include "interface/frame_io.h"
+#include "render/frame/frame_inputs.h"
 #include "render/frame/frame_plan.h"
 #include "render/frame/jpeg_file.h"
+#include "render/frame/planes.h"
 #include "settings/settings.h"
 
 #include <algorithm>
@@ -57,20 +59,22 @@ inline constexpr vk::DeviceSize kWordBytes = 8;
 
 // What of a frame comes to the host.
 struct ReadbackBytes {
-    vk::DeviceSize picture = 0;                         // packed pixels, or a file of them
+    vk::DeviceSize picture = 0;                         // packed pixels, planes or a file of them
     std::array<vk::DeviceSize, kOutputCount> outputs{}; // 0: nobody asked for it
     bool operator==(const ReadbackBytes&) const = default;
 };
-// jpeg: null where pixels come as they are. Views go to and fro: room for a file is room for
-// pixels.
-[[nodiscard]] inline ReadbackBytes
-readbackBytes(const FrameSize& size, const Outputs& outputs, const JpegFormat* jpeg) {
+// Views go to and fro: room for planes or a file is room for pixels.
+[[nodiscard]] inline ReadbackBytes readbackBytes(const FrameSize& size, const FrameInputs& inputs) {
     ReadbackBytes bytes{packedBytes(size.shown)};
-    if (jpeg != nullptr) {
-        bytes.picture = std::max(bytes.picture, JpegSizes(size.shown, *jpeg).file_bytes);
+    if (inputs.form.jpeg) {
+        bytes.picture =
+            std::max(bytes.picture, JpegSizes(size.shown, *inputs.form.jpeg).file_bytes);
+    } else if (inputs.form.plane_sampling > 0) {
+        bytes.picture =
+            std::max(bytes.picture, PlaneSizes(size.shown, inputs.form.plane_sampling).bytes());
     }
     for (size_t i = 0; i < kOutputCount; ++i) {
-        bytes.outputs[i] = outputs.has(static_cast<Output>(i))
+        bytes.outputs[i] = inputs.outputs.has(static_cast<Output>(i))
                                ? vk::DeviceSize{kOutputRows[i].floats} * sizeof(float) *
                                      size.drawn.width_px * size.drawn.height_px
                                : 0;

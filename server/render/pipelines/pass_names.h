@@ -55,6 +55,7 @@ inline constexpr const char* kFxaa = "fxaa";
 inline constexpr const char* kJpegBlocks = "jpeg_blocks";
 inline constexpr const char* kJpegCount = "jpeg_count";
 inline constexpr const char* kJpegStuff = "jpeg_stuff";
+inline constexpr const char* kPlanes = "planes";
 inline constexpr const char* kReadback = "readback";
 inline constexpr const char* kRadianceReadback = "radiance_readback";
 inline constexpr const char* kLinearDepth = "linear_depth";

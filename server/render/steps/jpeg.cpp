@@ -51,8 +51,8 @@ class Jpeg final : public Step {
 };
 
 Result<void> Jpeg::build(const StepInputs& inputs, const FramePlan& /*frame*/) {
-    if (format_ != inputs.jpeg) {
-        format_ = inputs.jpeg;
+    if (format_ != inputs.form.jpeg) {
+        format_ = inputs.form.jpeg;
         tables_ = jpegTables(*format_);
     }
     sizes_ = JpegSizes(inputs.size.shown, *format_);
@@ -88,7 +88,8 @@ const StepRow kJpegStep{
     .name = pass::kJpegBlocks,
     .plan =
         [](const PlanInputs& inputs) {
-            return inputs.facts.makes_jpeg ? std::optional(StepPlan{}) : std::nullopt;
+            return inputs.facts.form == PictureForm::kFile ? std::optional(StepPlan{})
+                                                           : std::nullopt;
         },
     .uses = [](const FramePlan&,
                const StepPlan&) { return std::vector{use::loaded(Resource::kPixels)}; },

@@ -28,6 +28,7 @@ extern const StepRow kListsStep;
 extern const StepRow kOutlineStep;
 extern const StepRow kOverdrawStep;
 extern const StepRow kPairsStep;
+extern const StepRow kPlanesStep;
 extern const StepRow kPoseStep;
 extern const StepRow kRadianceReadbackStep;
 extern const StepRow kReadbackStep;
@@ -68,6 +69,7 @@ inline constexpr std::array kOrder = {
     &kFxaaStep,
     // What the host reads.
     &kJpegStep,
+    &kPlanesStep,
     &kReadbackStep,
     &kRadianceReadbackStep,
     &kLinearDepthStep,

@@ -157,7 +157,7 @@ const StepRow kReadbackStep{
     .name = pass::kReadback,
     .plan =
         [](const PlanInputs& inputs) {
-            return !inputs.facts.software_device && !inputs.facts.makes_jpeg
+            return !inputs.facts.software_device && inputs.facts.form == PictureForm::kPixels
                        ? std::optional(StepPlan{})
                        : std::nullopt;
         },

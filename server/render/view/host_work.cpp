@@ -103,7 +103,7 @@ FrameFacts HostWork::facts() const {
             .geometry = culling_.geometry(),
             .lists = light_work_.place(),
             .outputs = inputs_.outputs,
-            .makes_jpeg = inputs_.jpeg != nullptr,
+            .form = inputs_.form.kind(),
             .layers_visible = layersVisible(),
             .transparent_visible = !culling_.draws().transparent.empty(),
             .unlit_solid = needs.unlit,

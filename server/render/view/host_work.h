@@ -72,9 +72,9 @@ class HostWork {
                 .lights = light_work_.lights(),
                 .draws = culling_.draws(),
                 .debug = debug_,
+                .form = inputs_.form,
                 .time_s = inputs_.time_s,
-                .keeps = inputs_.keep_surfaces,
-                .jpeg = inputs_.jpeg};
+                .keeps = inputs_.keep_surfaces};
     }
     // What solid surfaces of the frame with that plan are drawn from.
     [[nodiscard]] SurfacesDrawn surfaces(const FramePlan& plan) const {

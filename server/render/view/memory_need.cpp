@@ -21,7 +21,7 @@ FrameMemory frameMemory(const HostWork& host_work,
                         std::span<const ActiveStep> steps) {
     return {.size = size,
             .targets = targets,
-            .readback = readbackBytes(size, inputs.outputs, inputs.jpeg.get()),
+            .readback = readbackBytes(size, inputs),
             .lists = host_work.lightWork().capacity(),
             .host_bytes = host_work.hostBytes() + inputs.beside_bytes,
             .steps = steps};

@@ -4,6 +4,7 @@
 #include "render/lists/list_limits.h"
 #include "render/pipelines/gbuffer_layout.h"
 #include "render/scene/scene_resources.h"
+#include "render/steps/order.h"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>

@@ -76,8 +76,7 @@ void ViewFrames::prepareTargets(FrameSlot& slot, const FramePlan& plan, const Fr
     }
     targets_->rastered_in_compute = plan.geometry == SolidGeometry::kComputeIds;
     slot.targets = targets_;
-    slot.makeReadback(scene_.shared.device,
-                      readbackBytes(size, slot.inputs.outputs, slot.inputs.jpeg.get()));
+    slot.makeReadback(scene_.shared.device, readbackBytes(size, slot.inputs));
     const bool filtered = plan.uses(Resource::kDisplay);
     writeScreenSet(scene_.shared.device, slot,
                    packedPixels(slot, filtered ? Resource::kDisplay : Resource::kPixels));
@@ -249,8 +248,10 @@ RenderedFrame ViewFrames::finish(FrameSlot& slot) {
     PixelView pixels{.width_px = shown.width_px,
                      .height_px = shown.height_px,
                      .output_samples = drawn.width_px / shown.width_px};
-    if (slot.inputs.jpeg) {
-        pixels.jpeg = jpegFile(JpegSizes(shown, *slot.inputs.jpeg), host);
+    if (slot.inputs.form.jpeg) {
+        pixels.jpeg = jpegFile(JpegSizes(shown, *slot.inputs.form.jpeg), host);
+    } else if (slot.inputs.form.plane_sampling > 0) {
+        pixels.planes = PlaneSizes(shown, slot.inputs.form.plane_sampling).view(host);
     } else {
         pixels.data = host;
         pixels.stride_bytes = size_t{4} * shown.width_px;

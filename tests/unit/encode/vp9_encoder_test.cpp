@@ -1,5 +1,6 @@
 #include "encode/memory.h"
 #include "encode/vp9_encoder.h"
+#include "support/planes.h"
 #include "unit/encode/picture.h"
 
 #include <gtest/gtest.h>
@@ -142,6 +143,32 @@ TEST(Vp9Encoder, SmallestAndOddSizes_AreEncoded) {
         Decoder decoder;
         for (int i = 0; i < 3; ++i) {
             EXPECT_NE(decoder.decode(film.next(encoding(1000))), nullptr) << size.width_px;
+        }
+    }
+}
+
+// A device may have made them: in rows of any length, and none of the sizes even.
+TEST(Vp9Encoder, Planes_GiveTheFramesOfTheirPixels) {
+    for (const auto chroma : {settings::Chroma::k420, settings::Chroma::k444}) {
+        for (const auto& [width_px, height_px] : {std::pair(320U, 180U), {33U, 17U}}) {
+            Vp9Encoder of_pixels{1};
+            Vp9Encoder of_planes{1};
+            TimePoint at = kStart;
+            for (uint32_t number = 0; number < 4; ++number) {
+                const Picture picture = moving(width_px, height_px, number);
+                PixelView view = picture.view();
+                const auto expected =
+                    of_pixels.encode(view, encoding(1000, chroma), false, at += kFrameTime);
+                PlaneView planes;
+                const auto kept = test::planesOf(view, chroma, 7, planes);
+                view.planes = planes;
+                view.data = nullptr;
+                view.stride_bytes = 0;
+                const auto made = of_planes.encode(view, encoding(1000, chroma), false, at);
+                ASSERT_TRUE(expected && made);
+                EXPECT_EQ(made->bytes, expected->bytes);
+                EXPECT_EQ(made->key, expected->key);
+            }
         }
     }
 }

@@ -376,7 +376,7 @@ TEST_F(RenderLoopTest, MeanOfARest_IsOfFramesThatAreSeenThroughAShiftedLens) {
         EXPECT_EQ(drawn.antialiasing, settings::Antialiasing::kNone);
     }
     EXPECT_EQ(seen[1].antialiasing, settings::Antialiasing::kFxaa);
-    EXPECT_EQ(device_->file_count, 2U) << "pixels are added up, not files";
+    EXPECT_EQ(device_->formed_count, 2U) << "pixels are added up, not files";
 }
 
 TEST_F(RenderLoopTest, InputAmidTheSamples_IsDrawnAtOnceAndTheMeanBeginsAnew) {

@@ -1,5 +1,6 @@
 // Samples of luma and chroma as libjpeg takes them from RGB (jccolor.c, jcsample.c), in 16-bit
-// fixed point, 128 less. Past the picture's sides the last ones go on.
+// fixed point, 128 less. Past the picture's sides the last ones go on. Of pixels[], by
+// picture.width_px and picture.height_px; kSampling: luma samples a chroma sample, each way.
 
 const int kHalf = 1 << 15;
 const int kChromaOffset = (128 << 16) + kHalf - 1;
