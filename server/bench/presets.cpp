@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace froxel::bench {
@@ -225,6 +226,35 @@ Sweep rest(const Base& base) {
     return sweep;
 }
 
+// What it takes to bring the picture to the host.
+Sweep form(const Base& base) {
+    using settings::Chroma;
+    using settings::Codec;
+    using settings::Encoding;
+    Sweep sweep{"form",
+                "Forms in which pictures come to the host",
+                "form",
+                "",
+                Axis::kCategory,
+                "The camera rests, and lights move. Look at the passes readback, planes and jpeg.",
+                {}};
+    const std::array<std::pair<const char*, std::optional<Encoding>>, 7> forms = {
+        {{"pixels", std::nullopt},
+         {"planes, 4:2:0", Encoding{.codec = Codec::kVp9}},
+         {"planes, 4:4:4", Encoding{.chroma = Chroma::k444, .codec = Codec::kVp9}},
+         {"jpeg 50", Encoding{.quality = 50}},
+         {"jpeg 85", Encoding{.quality = 85}},
+         {"jpeg 97", Encoding{.quality = 97}},
+         {"jpeg 85, 4:4:4", Encoding{.quality = 85, .chroma = Chroma::k444}}}};
+    for (size_t i = 0; i < forms.size(); ++i) {
+        auto row = rowOf(base, kDeferred, forms[i].first, static_cast<double>(i));
+        row.keep_surfaces = true;
+        row.form = forms[i].second;
+        sweep.rows.push_back(std::move(row));
+    }
+    return sweep;
+}
+
 Sweep memory(const Base& base) {
     struct Load {
         settings::Size size;
@@ -286,6 +316,7 @@ constexpr std::array kPresets = {
     Preset{"renderer", renderer},
     Preset{"view", cameraPath},
     Preset{"rest", rest},
+    Preset{"form", form},
     Preset{"memory", memory},
     Preset{"debug_view", debugViews},
     Preset{"resolution_scale", resolutionScaleSweep},

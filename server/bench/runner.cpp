@@ -3,6 +3,7 @@
 #include "core/clock.h"
 #include "core/cpu_time.h"
 #include "core/error.h"
+#include "encode/host_form.h"
 #include "render/view/renderer.h"
 #include "report/frame_step.h"
 
@@ -63,15 +64,29 @@ void skip(RowTimes& times, const Error& error) {
 
 } // namespace
 
+Result<render::FrameInputs> Runner::inputsFor(const Row& row, double time_s) {
+    auto form = row.form ? encode::hostForm(jpeg_formats_, *row.form) : HostForm();
+    if (!form) {
+        return form.error();
+    }
+    return render::FrameInputs{.settings = row.settings,
+                               .time_s = time_s,
+                               .keep_surfaces = row.keep_surfaces,
+                               .form = std::move(*form)};
+}
+
 uint32_t Runner::warmUp(const Row& row, double time_s, RowTimes& times, double& frame_s) {
     const double warmup_s = budget_.seconds_per_row / 4;
     render::ViewRenderer viewer(renderer_);
-    const render::FrameInputs inputs{
-        .settings = row.settings, .time_s = time_s, .keep_surfaces = row.keep_surfaces};
+    const auto inputs = inputsFor(row, time_s);
+    if (!inputs) {
+        skip(times, inputs.error());
+        return 0;
+    }
     const auto start = Clock::now();
     for (uint32_t i = 0; i < budget_.warmup_first; ++i) {
         const auto frame_start = Clock::now();
-        const auto stats = drawFrame(viewer, inputs);
+        const auto stats = drawFrame(viewer, *inputs);
         if (!stats) {
             skip(times, stats.error());
             return 0;
@@ -116,16 +131,18 @@ Runner::warmUpAll(const Sweep& sweep, const Base& base, std::vector<RowTimes>& t
 
 void Runner::draw(const Turn& turn, const Row& row, double time_s, RowTimes& times) {
     render::ViewRenderer viewer(renderer_);
-    render::FrameInputs inputs{
-        .settings = row.settings, .time_s = time_s, .keep_surfaces = row.keep_surfaces};
+    auto inputs = inputsFor(row, time_s);
+    if (!inputs) {
+        return skip(times, inputs.error());
+    }
     const auto timeOf = [&](uint32_t frame) {
         return time_s + frame * report::lightStepS(row.settings.lights);
     };
     for (uint32_t i = 0; i < budget_.warmup_frames + turn.frame_count && !stop_; ++i) {
         const bool counts = i >= budget_.warmup_frames;
-        inputs.time_s = timeOf(turn.first_frame + (counts ? i - budget_.warmup_frames : 0));
+        inputs->time_s = timeOf(turn.first_frame + (counts ? i - budget_.warmup_frames : 0));
         const auto cpu = processTime();
-        auto stats = drawFrame(viewer, inputs);
+        auto stats = drawFrame(viewer, *inputs);
         if (!stats) {
             return skip(times, stats.error());
         }

@@ -5,6 +5,8 @@
 #include "bench/progress.h"
 #include "bench/sweep.h"
 #include "core/frame_stats.h"
+#include "encode/jpeg_format.h"
+#include "render/frame/frame_inputs.h"
 
 #include <atomic>
 #include <cstdint>
@@ -50,6 +52,8 @@ class Runner {
     [[nodiscard]] std::vector<RowTimes> time(const Sweep& sweep, const Base& base);
 
   private:
+    // Errors: kIo, kInvalidArgument.
+    [[nodiscard]] Result<render::FrameInputs> inputsFor(const Row& row, double time_s);
     // Draws the row's first frames; how many more it may have. Fills times.skipped or times.note.
     uint32_t warmUp(const Row& row, double time_s, RowTimes& times, double& frame_s);
     std::vector<uint32_t>
@@ -60,6 +64,7 @@ class Runner {
     Budget budget_;
     const std::atomic<bool>& stop_;
     Progress& progress_;
+    encode::JpegFormats jpeg_formats_;
 };
 
 } // namespace froxel::bench

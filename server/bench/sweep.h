@@ -31,7 +31,9 @@ struct Row {
     std::optional<settings::Encoding> stream; // JPEG whose error is taken too
     // Where settings.lights.placed would be; empty: where the base's are.
     std::filesystem::path light_set = {};
-    bool keep_surfaces = false;   // FrameInputs::keep_surfaces
+    bool keep_surfaces = false; // FrameInputs::keep_surfaces
+    // In whose form pictures come to the host; none: as pixels.
+    std::optional<settings::Encoding> form = {};
     bool against_peeled = false;  // R2 is the same with 16 layers peeled, drawn by the device
     bool against_samples = false; // R2 is the mean of many samples a pixel, drawn by the device
 

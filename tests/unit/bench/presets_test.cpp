@@ -88,6 +88,17 @@ TEST(Presets, SeriesOfPredictableWork_AreInAscendingOrder) {
     }
 }
 
+// As serve draws them, and each form once.
+TEST(Presets, Form_HasEveryFormOfAPicture) {
+    std::set<PictureForm> forms;
+    for (const auto& row : makeSweep("form", base()).rows) {
+        EXPECT_TRUE(row.keep_surfaces) << row.label;
+        forms.insert(row.form ? settings::rowOf(row.form->codec).device_form
+                              : PictureForm::kPixels);
+    }
+    EXPECT_EQ(forms.size(), 3U);
+}
+
 TEST(Presets, LightCount_GoesToAMillionForEveryWay) {
     std::map<std::string, uint32_t> most;
     for (const auto& row : makeSweep("light_count", base()).rows) {
