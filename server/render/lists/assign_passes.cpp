@@ -92,9 +92,7 @@ void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) 
     const auto& cmd = assign.cmd;
     const auto finish = [&] {
         // lists, indices, counters -> copy
-        barrier(cmd, vk::PipelineStageFlagBits2::eComputeShader,
-                vk::AccessFlagBits2::eShaderStorageWrite, vk::PipelineStageFlagBits2::eCopy,
-                vk::AccessFlagBits2::eTransferRead);
+        copyAfterCompute(cmd);
         copyForHost(assign);
     };
     if (assign.slot.inLines()) {

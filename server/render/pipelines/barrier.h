@@ -46,6 +46,14 @@ inline void computeAfterTransfer(const vk::raii::CommandBuffer& cmd) {
             Access::eShaderStorageRead | Access::eShaderStorageWrite);
 }
 
+// What compute passes so far stored -> copies.
+inline void copyAfterCompute(const vk::raii::CommandBuffer& cmd) {
+    using Access = vk::AccessFlagBits2;
+    using Stage = vk::PipelineStageFlagBits2;
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eCopy,
+            Access::eTransferRead);
+}
+
 // What raster passes so far wrote and read -> tests, blending and loads of those that follow.
 inline void nextRasterPass(const vk::raii::CommandBuffer& cmd) {
     using Access = vk::AccessFlagBits2;

@@ -19,8 +19,6 @@ namespace froxel::render {
 
 namespace {
 
-using Access = vk::AccessFlagBits2;
-using Stage = vk::PipelineStageFlagBits2;
 using Type = vk::DescriptorType;
 
 constexpr uint32_t kBindings = 2; // storage buffers: pixels, planes
@@ -149,8 +147,7 @@ void Planes::record(const FrameContext& frame) const {
                                          sizes_.picture);
     const uint32_t words = sizes_.lumaWords() + sizes_.chromaWords();
     cmd.dispatch((words + io::kPlanesGroup - 1) / io::kPlanesGroup, 1, 1);
-    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eCopy,
-            Access::eTransferRead);
+    copyAfterCompute(cmd);
     cmd.copyBuffer(*targets_->planes.handle, *frame.slot.readback->buffer.handle,
                    vk::BufferCopy{.size = sizes_.bytes()});
 }
