@@ -222,7 +222,10 @@ async function makePanel(): Promise<Panel> {
     element('tool-panel', HTMLButtonElement).setAttribute('aria-pressed', String(open));
   const made = new Panel(element('panel', HTMLElement), commands, tell, codecs);
   made.show(store.state);
-  void fetchWords().then((words) => made.tell(words));
+  void fetchWords().then((words) => {
+    made.tell(words);
+    searchCard.here?.refresh();
+  });
   return made;
 }
 

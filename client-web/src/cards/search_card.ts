@@ -29,7 +29,7 @@ export class SearchCard {
     this.dialog.showModal();
   }
 
-  /** There may be more entries than when it opened. */
+  /** There may be more entries than when it opened, or more is known of them. */
   refresh(): void {
     if (this.dialog.open) this.search();
   }
