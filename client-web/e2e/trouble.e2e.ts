@@ -83,6 +83,25 @@ it('PartOfThePageThatCannotBeFetched_IsSaidWhenItIsWanted', async () => {
   await viewer.told('could not be fetched');
 });
 
+it('WordsThatComeWhileTheSearchIsOpen_AreShownInIt', async () => {
+  viewer = await Viewer.open(browser, 'about:blank');
+  let arrive = (): void => undefined;
+  const wanted = new Promise<void>((resolve) => (arrive = resolve));
+  await viewer.page.route(/settings\.json$/, async (route) => {
+    await wanted;
+    await route.continue();
+  });
+  await viewer.page.goto(server.url + kStill);
+  await viewer.picture();
+  await viewer.page.keyboard.press('Control+k');
+  await viewer.page.locator('#search-text').fill('expo');
+  const list = viewer.page.locator('#search-list');
+  await until('a list without help', async () => (await list.textContent())?.includes('Exposure mode'));
+  expect(await list.textContent()).not.toContain('Factor on scene light');
+  arrive();
+  await until('the help of it', async () => (await list.textContent())?.includes('Factor on scene light'));
+});
+
 it('NumberThatIsNoWholeOne_IsRefusedHere', async () => {
   await open(kStill);
   await viewer.openPanel();
