@@ -63,6 +63,11 @@ void FramePipeline::push(DrawnFrame frame) {
 }
 
 void FramePipeline::startEncoding() {
+    // After a refined still the video goes on where it was.
+    if (!settings::rowOf(codecOf(*encoding_)).frames_depend &&
+        encoding_->record.delivered.refinement < session::Refinement::kHigh) {
+        video_.reset();
+    }
     if (isFile(encoding_->pixels.view())) {
         takeFile();
         return;
@@ -85,7 +90,6 @@ void FramePipeline::startEncoding() {
 
 // What an encoder would have made of it is there.
 void FramePipeline::takeFile() {
-    static_cast<void>(videoJob(*encoding_));
     const PixelView view = encoding_->pixels.view();
     if (view.jpeg.empty()) {
         onEncoded(Error{ErrorCode::kIo, "the JPEG is larger than there is room for"});
@@ -103,11 +107,6 @@ void FramePipeline::takeFile() {
 std::optional<encode::VideoJob> FramePipeline::videoJob(const DrawnFrame& frame) {
     const settings::Codec codec = codecOf(frame);
     if (!settings::rowOf(codec).frames_depend) {
-        // After a refined still the video goes on where it was.
-        const session::Refinement refinement = frame.record.delivered.refinement;
-        if (refinement < session::Refinement::kHigh) {
-            video_.reset();
-        }
         return {};
     }
     if (!video_ || video_codec_ != codec) {
