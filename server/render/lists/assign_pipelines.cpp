@@ -5,6 +5,7 @@
 #include "gpu/pipeline.h"
 #include "interface/assign_io.h"
 #include "render/pipelines/host_copies.h"
+#include "render/pipelines/storage_set.h"
 
 #include <array>
 #include <bit>
@@ -17,17 +18,6 @@ namespace froxel::render {
 namespace {
 
 constexpr uint32_t kProbes = 4096;
-
-vk::raii::DescriptorSetLayout storageLayout(const gpu::Device& device, uint32_t count) {
-    std::vector<vk::DescriptorSetLayoutBinding> bindings(count);
-    for (uint32_t i = 0; i < count; ++i) {
-        bindings[i] = {.binding = i,
-                       .descriptorType = vk::DescriptorType::eStorageBuffer,
-                       .descriptorCount = 1,
-                       .stageFlags = vk::ShaderStageFlagBits::eCompute};
-    }
-    return gpu::makeSetLayout(device, bindings);
-}
 
 // Positive, of any mantissa, within what depths and coordinates can be.
 std::vector<double> probeOperands() {
@@ -66,21 +56,12 @@ std::string AssignPipelines::unusable(const gpu::Device& device, gpu::Timeline& 
     const auto out = arena.makeBuffer(operands.size() * sizeof(double), usage,
                                       gpu::MemoryUse::kReadback, "assignment probe");
     std::memcpy(in.mapped, operands.data(), operands.size() * sizeof(double));
-    const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer, 2};
-    const auto pool = gpu::makeDescriptorPool(device, std::array{size});
-    const auto set = gpu::makeSet(device, pool, *set_layout);
-    const std::array infos = {vk::DescriptorBufferInfo{*in.handle, 0, VK_WHOLE_SIZE},
-                              vk::DescriptorBufferInfo{*out.handle, 0, VK_WHOLE_SIZE}};
-    device.handle().updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = *set,
-                               .dstBinding = 0,
-                               .descriptorCount = 2,
-                               .descriptorType = vk::DescriptorType::eStorageBuffer,
-                               .pBufferInfo = infos.data()},
-        {});
+    const StorageSet set(device, *set_layout, 2);
+    set.write(std::array{vk::DescriptorBufferInfo{*in.handle, 0, VK_WHOLE_SIZE},
+                         vk::DescriptorBufferInfo{*out.handle, 0, VK_WHOLE_SIZE}});
     timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
         cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
-        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout, 0, *set, {});
+        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout, 0, set.handle(), {});
         cmd.dispatch(kProbes / 64, 1, 1);
         recordHostRead(cmd);
     });

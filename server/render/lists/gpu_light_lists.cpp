@@ -73,17 +73,13 @@ ListBuffers::ListBuffers(const gpu::Device& device, const ListCapacity& capacity
 }
 
 AssignSlot::AssignSlot(const gpu::Device& device, const AssignPipelines& pipelines)
-    : device_(device), arena_(device), readback_(arena_.makeBuffer(kListReadbackBytes,
-                                                                   Usage::eTransferDst,
-                                                                   gpu::MemoryUse::kReadback,
-                                                                   "light list counters")),
-      pool_(nullptr) {
+    : arena_(device), readback_(arena_.makeBuffer(kListReadbackBytes,
+                                                  Usage::eTransferDst,
+                                                  gpu::MemoryUse::kReadback,
+                                                  "light list counters")),
+      set_(device, pipelines.setLayout(), AssignPipelines::kBindings) {
     static_assert(uint64_t{settings::kGridXRange.max} * settings::kGridYRange.max <=
                   io::kAssignMaxTiles);
-    const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer,
-                                      AssignPipelines::kBindings};
-    pool_ = gpu::makeDescriptorPool(device, std::array{size});
-    set_ = gpu::makeSet(device, pool_, pipelines.setLayout());
 }
 
 void AssignSlot::write(std::shared_ptr<ListBuffers> buffers,
@@ -115,13 +111,7 @@ void AssignSlot::write(std::shared_ptr<ListBuffers> buffers,
         whole(b.lists),
         whole(b.raw_indices),
         whole(b.indices)};
-    device_.handle().updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = *set_,
-                               .dstBinding = 0,
-                               .descriptorCount = AssignPipelines::kBindings,
-                               .descriptorType = vk::DescriptorType::eStorageBuffer,
-                               .pBufferInfo = infos.data()},
-        {});
+    set_.write(infos);
 }
 
 io::AssignTotals AssignSlot::totals() const {

@@ -11,6 +11,7 @@
 #include "light/frame_lights.h"
 #include "render/lists/assign_pipelines.h"
 #include "render/lists/list_limits.h"
+#include "render/pipelines/storage_set.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -98,7 +99,7 @@ class AssignSlot {
     void letGo() { buffers_.reset(); }
 
     [[nodiscard]] const ListBuffers& buffers() const { return *buffers_; }
-    [[nodiscard]] vk::DescriptorSet set() const { return *set_; }
+    [[nodiscard]] vk::DescriptorSet set() const { return set_.handle(); }
     [[nodiscard]] vk::Buffer readback() const { return *readback_.handle; }
     // What was written last.
     [[nodiscard]] const io::AssignFrame& frame() const { return frame_; }
@@ -113,11 +114,9 @@ class AssignSlot {
     [[nodiscard]] std::span<const uint32_t> tileLongest() const;
 
   private:
-    const gpu::Device& device_;
     gpu::MemoryArena arena_;
     gpu::Buffer readback_;
-    vk::raii::DescriptorPool pool_;
-    vk::raii::DescriptorSet set_{nullptr};
+    StorageSet set_;
     std::shared_ptr<ListBuffers> buffers_;
     io::AssignFrame frame_{};
     bool in_lines_ = false;

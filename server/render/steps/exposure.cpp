@@ -10,6 +10,7 @@
 #include "render/pipelines/pass_names.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/pipelines/shared_pipeline.h"
+#include "render/pipelines/storage_set.h"
 #include "render/steps/order.h"
 
 #include <array>
@@ -23,7 +24,6 @@ namespace {
 
 using Access = vk::AccessFlagBits2;
 using Stage = vk::PipelineStageFlagBits2;
-using Type = vk::DescriptorType;
 
 // Stops besides the exposure that was asked for.
 constexpr std::array kMetered = {
@@ -31,22 +31,10 @@ constexpr std::array kMetered = {
 
 constexpr vk::DeviceSize kCountBytes = io::kMeterBins * sizeof(uint32_t);
 
-vk::raii::DescriptorSetLayout makeExposureSetLayout(const gpu::Device& device) {
-    const auto stage = vk::ShaderStageFlagBits::eCompute;
-    const std::array bindings = {vk::DescriptorSetLayoutBinding{0, Type::eStorageBuffer, 1, stage},
-                                 vk::DescriptorSetLayoutBinding{1, Type::eStorageBuffer, 1, stage}};
-    return gpu::makeSetLayout(device, bindings);
-}
-
-vk::raii::DescriptorPool makeExposurePool(const gpu::Device& device) {
-    const vk::DescriptorPoolSize size{Type::eStorageBuffer, 2};
-    return gpu::makeDescriptorPool(device, std::array{size});
-}
-
 // Shared by every view.
 struct ExposurePipelines {
     explicit ExposurePipelines(const DeviceResources& shared)
-        : set_layout(makeExposureSetLayout(shared.device)),
+        : set_layout(storageLayout(shared.device, 2)),
           layout(gpu::makePipelineLayout(
               shared.device,
               {shared.pipelines.frameLayout(), shared.pipelines.screenLayout(), *set_layout})),
@@ -80,27 +68,16 @@ struct ExposureTargets final : StepTargets {
 // One a frame slot.
 struct ExposureSet {
     ExposureSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
-        : pool(makeExposurePool(device)), set(gpu::makeSet(device, pool, layout)) {}
+        : set(device, layout, 2) {}
 
     // `uniforms`: io::Frame in the slot's upload.
-    void write(const gpu::Device& device,
-               const gpu::Buffer& counts,
-               vk::Buffer upload,
-               const FrameBlock& uniforms) {
+    void write(const gpu::Buffer& counts, vk::Buffer upload, const FrameBlock& uniforms) {
         exposure_offset = uniforms.offset + offsetof(io::Frame, exposure);
-        const std::array buffers = {
-            vk::DescriptorBufferInfo{*counts.handle, 0, VK_WHOLE_SIZE},
-            vk::DescriptorBufferInfo{upload, uniforms.offset, uniforms.bytes}};
-        const vk::WriteDescriptorSet write{.dstSet = *set,
-                                           .dstBinding = 0,
-                                           .descriptorCount = buffers.size(),
-                                           .descriptorType = Type::eStorageBuffer,
-                                           .pBufferInfo = buffers.data()};
-        device.handle().updateDescriptorSets(write, {});
+        set.write(std::array{vk::DescriptorBufferInfo{*counts.handle, 0, VK_WHOLE_SIZE},
+                             vk::DescriptorBufferInfo{upload, uniforms.offset, uniforms.bytes}});
     }
 
-    vk::raii::DescriptorPool pool;
-    vk::raii::DescriptorSet set;
+    StorageSet set;
     vk::DeviceSize exposure_offset = 0;
 };
 
@@ -151,8 +128,7 @@ void Exposure::prepare(FrameSlot& slot, FrameBlocks& blocks) {
     slot.step_targets.hold(targets_);
     const auto& shared = scene_.shared.stored<ExposurePipelines>();
     slot.stored.findOrMake<ExposureSet>(scene_.shared.device, *shared.set_layout)
-        .write(scene_.shared.device, targets_->counts, slot.upload.buffer(),
-               blocks[io::kFrameBinding]);
+        .write(targets_->counts, slot.upload.buffer(), blocks[io::kFrameBinding]);
 }
 
 void Exposure::record(const FrameContext& frame) const {
@@ -179,7 +155,7 @@ void Exposure::bind(const FrameContext& frame, SharedPipeline& pipeline) {
     const auto& cmd = frame.slot.cmd;
     pipeline.bind(cmd, frame.scene.shared.variants);
     const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
-                             *frame.slot.stored.get<ExposureSet>().set};
+                             frame.slot.stored.get<ExposureSet>().set.handle()};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
                            *frame.scene.shared.stored<ExposurePipelines>().layout, 0, sets, {});
 }

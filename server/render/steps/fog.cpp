@@ -10,6 +10,7 @@
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/pass_names.h"
 #include "render/pipelines/screen_groups.h"
+#include "render/pipelines/storage_set.h"
 #include "render/steps/environment.h"
 #include "render/steps/fog_plan.h"
 #include "render/steps/order.h"
@@ -21,32 +22,17 @@ namespace froxel::render {
 
 namespace {
 
-using Access = vk::AccessFlagBits2;
-using Stage = vk::PipelineStageFlagBits2;
-using Type = vk::DescriptorType;
-
 constexpr Measured<PairCost> kPair{.cpu = {5e-9, 8e-7}, .gpu = {8e-12, 1e-6}};
 constexpr Measured<double> kFroxel{.cpu = 6e-8, .gpu = 1e-10}; // without lights
 
 enum class FogShader : uint8_t { kScatter, kIntegrate, kApply };
-
-vk::raii::DescriptorSetLayout makeFogSetLayout(const gpu::Device& device) {
-    const std::array bindings = {vk::DescriptorSetLayoutBinding{0, Type::eStorageBuffer, 1,
-                                                                vk::ShaderStageFlagBits::eCompute}};
-    return gpu::makeSetLayout(device, bindings);
-}
-
-vk::raii::DescriptorPool makeFogPool(const gpu::Device& device) {
-    const vk::DescriptorPoolSize size{Type::eStorageBuffer, 1};
-    return gpu::makeDescriptorPool(device, std::array{size});
-}
 
 // Shared by every view; a pipeline is made when first needed.
 class FogPipelines {
   public:
     explicit FogPipelines(DeviceResources& shared)
         : device_(shared.device), screen_layout_(shared.pipelines.screenPipelineLayout()),
-          set_layout_(makeFogSetLayout(device_)),
+          set_layout_(storageLayout(device_, 1)),
           volume_layout_(
               gpu::makePipelineLayout(device_, {shared.pipelines.frameLayout(), *set_layout_})),
           made_(shared.timeline, shared.variants, Pipelines::kKeptScreen) {}
@@ -93,25 +79,17 @@ class FogVolume final : public StepTargets {
                                          vk::BufferUsageFlagBits::eUniformTexelBuffer,
                                      gpu::MemoryUse::kDevice,
                                      "fog volume")),
-          pool_(makeFogPool(device)), set_(gpu::makeSet(device, pool_, layout)) {
-        const vk::DescriptorBufferInfo buffer{*froxels_.handle, 0, VK_WHOLE_SIZE};
-        device.handle().updateDescriptorSets(
-            vk::WriteDescriptorSet{.dstSet = *set_,
-                                   .dstBinding = 0,
-                                   .descriptorCount = 1,
-                                   .descriptorType = Type::eStorageBuffer,
-                                   .pBufferInfo = &buffer},
-            {});
+          set_(device, layout, 1) {
+        set_.write(std::array{vk::DescriptorBufferInfo{*froxels_.handle, 0, VK_WHOLE_SIZE}});
     }
 
     [[nodiscard]] const gpu::Buffer& froxels() const { return froxels_; }
-    [[nodiscard]] vk::DescriptorSet set() const { return *set_; }
+    [[nodiscard]] vk::DescriptorSet set() const { return set_.handle(); }
 
   private:
     gpu::MemoryArena arena_;
     gpu::Buffer froxels_;
-    vk::raii::DescriptorPool pool_;
-    vk::raii::DescriptorSet set_;
+    StorageSet set_;
 };
 
 class Fog final : public Step {

@@ -72,8 +72,8 @@ void Jpeg::prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) {
     writeJpegHeader(*format_, sizes_, file.mapped);
     const auto& pipelines = scene_.shared.stored<JpegPipelines>();
     slot.stored.findOrMake<JpegSet>(device, pipelines.setLayout())
-        .write(device, packedPixels(slot, Resource::kPixels), slot.upload.buffer(), tables_at_,
-               *scratch_, file);
+        .write(packedPixels(slot, Resource::kPixels), slot.upload.buffer(), tables_at_, *scratch_,
+               file);
 }
 
 void Jpeg::record(const FrameContext& frame) const {

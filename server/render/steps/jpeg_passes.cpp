@@ -16,8 +16,6 @@ namespace froxel::render {
 
 namespace {
 
-using Type = vk::DescriptorType;
-
 constexpr uint32_t kBindings = 6; // storage buffers: shaders/lib/jpeg.glsl
 
 // Of coefficients as the transform leaves them: eight times what the quantisation is of, and those
@@ -74,14 +72,6 @@ gpu::Spirv codeOf(JpegPass pass) {
                                       : shaders::jpeg_stuff_comp();
 }
 
-vk::raii::DescriptorSetLayout makeJpegSetLayout(const gpu::Device& device) {
-    std::array<vk::DescriptorSetLayoutBinding, kBindings> bindings;
-    for (uint32_t i = 0; i < kBindings; ++i) {
-        bindings[i] = {i, Type::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute};
-    }
-    return gpu::makeSetLayout(device, bindings);
-}
-
 } // namespace
 
 JpegTablePair jpegTables(const JpegFormat& format) {
@@ -100,7 +90,7 @@ std::string jpegUnusable(const gpu::Device& device) {
 }
 
 JpegPipelines::JpegPipelines(DeviceResources& shared)
-    : device_(shared.device), set_layout_(makeJpegSetLayout(device_)),
+    : device_(shared.device), set_layout_(storageLayout(device_, kBindings)),
       layout_(gpu::makePipelineLayout(device_, {*set_layout_}, sizeof(io::JpegPicture))),
       made_(shared.timeline, shared.variants, Pipelines::kKeptScreen) {}
 
@@ -126,12 +116,9 @@ JpegScratch::JpegScratch(const gpu::Device& device, const JpegSizes& sizes) : ar
 }
 
 JpegSet::JpegSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
-    : pool_(gpu::makeDescriptorPool(
-          device, std::array{vk::DescriptorPoolSize{Type::eStorageBuffer, kBindings}})),
-      set_(gpu::makeSet(device, pool_, layout)) {}
+    : set_(device, layout, kBindings) {}
 
-void JpegSet::write(const gpu::Device& device,
-                    const gpu::Buffer& pixels,
+void JpegSet::write(const gpu::Buffer& pixels,
                     vk::Buffer upload,
                     vk::DeviceSize tables,
                     const JpegScratch& scratch,
@@ -144,13 +131,7 @@ void JpegSet::write(const gpu::Device& device,
         {*scratch.codes().handle, 0, VK_WHOLE_SIZE},
         {*file.handle, 0, VK_WHOLE_SIZE},
     }};
-    device.handle().updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = *set_,
-                               .dstBinding = 0,
-                               .descriptorCount = kBindings,
-                               .descriptorType = Type::eStorageBuffer,
-                               .pBufferInfo = buffers.data()},
-        {});
+    set_.write(buffers);
 }
 
 void recordJpeg(const vk::raii::CommandBuffer& cmd,

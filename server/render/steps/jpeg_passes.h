@@ -11,6 +11,7 @@
 #include "render/device/device_resources.h"
 #include "render/frame/jpeg_file.h"
 #include "render/frame/step_targets.h"
+#include "render/pipelines/storage_set.h"
 #include "render/pipelines/variant_cache.h"
 
 #include <array>
@@ -71,17 +72,15 @@ class JpegSet {
     JpegSet(const gpu::Device& device, vk::DescriptorSetLayout layout);
 
     // `tables`: within `upload`, JpegTablePair. Not in flight.
-    void write(const gpu::Device& device,
-               const gpu::Buffer& pixels,
+    void write(const gpu::Buffer& pixels,
                vk::Buffer upload,
                vk::DeviceSize tables,
                const JpegScratch& scratch,
                const gpu::Buffer& file);
-    [[nodiscard]] vk::DescriptorSet handle() const { return *set_; }
+    [[nodiscard]] vk::DescriptorSet handle() const { return set_.handle(); }
 
   private:
-    vk::raii::DescriptorPool pool_;
-    vk::raii::DescriptorSet set_;
+    StorageSet set_;
 };
 
 // Reads pixels that were stored before; the file is there once the host may read. May throw

@@ -8,6 +8,7 @@
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/pass_names.h"
 #include "render/pipelines/screen_groups.h"
+#include "render/pipelines/storage_set.h"
 #include "render/steps/order.h"
 
 #include <algorithm>
@@ -27,17 +28,6 @@ constexpr const StatRow& kContributing = kPairStats[1];
 
 constexpr uint32_t kLit = 1U << 0U; // of StepPlan::way: there is something to count
 
-vk::raii::DescriptorSetLayout pairSetLayout(const gpu::Device& device) {
-    const std::array bindings = {vk::DescriptorSetLayoutBinding{
-        0, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute}};
-    return gpu::makeSetLayout(device, bindings);
-}
-
-vk::raii::DescriptorPool makePairPool(const gpu::Device& device) {
-    const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer, 1};
-    return gpu::makeDescriptorPool(device, std::array{size});
-}
-
 double join(uint32_t low, uint32_t high) {
     return static_cast<double>(uint64_t{high} << 32U | low);
 }
@@ -46,7 +36,7 @@ double join(uint32_t low, uint32_t high) {
 class PairPipelines {
   public:
     explicit PairPipelines(DeviceResources& shared)
-        : device_(shared.device), set_layout_(pairSetLayout(device_)),
+        : device_(shared.device), set_layout_(storageLayout(device_, 1)),
           layout_(gpu::makePipelineLayout(
               device_,
               {shared.pipelines.frameLayout(), shared.pipelines.screenLayout(), *set_layout_})),
@@ -79,21 +69,13 @@ struct PairCounts {
                                                      vk::BufferUsageFlagBits::eTransferDst,
                                                  gpu::MemoryUse::kReadback,
                                                  "pair counts")),
-          pool(makePairPool(device)), set(gpu::makeSet(device, pool, layout)) {
-        const vk::DescriptorBufferInfo info{*buffer.handle, 0, VK_WHOLE_SIZE};
-        device.handle().updateDescriptorSets(
-            vk::WriteDescriptorSet{.dstSet = *set,
-                                   .dstBinding = 0,
-                                   .descriptorCount = 1,
-                                   .descriptorType = vk::DescriptorType::eStorageBuffer,
-                                   .pBufferInfo = &info},
-            {});
+          set(device, layout, 1) {
+        set.write(std::array{vk::DescriptorBufferInfo{*buffer.handle, 0, VK_WHOLE_SIZE}});
     }
 
     gpu::MemoryArena arena;
     gpu::Buffer buffer;
-    vk::raii::DescriptorPool pool;
-    vk::raii::DescriptorSet set;
+    StorageSet set;
 };
 
 class Pairs final : public Step {
@@ -149,7 +131,7 @@ class Pairs final : public Step {
         cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
                          pipelines.find(frame.plan.lighting_light_flags));
         const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
-                                 *frame.slot.stored.get<PairCounts>().set};
+                                 frame.slot.stored.get<PairCounts>().set.handle()};
         cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.layout(), 0, sets, {});
         dispatchOver(cmd, part);
     }

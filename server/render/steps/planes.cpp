@@ -10,6 +10,7 @@
 #include "render/frame/step_targets.h"
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/pass_names.h"
+#include "render/pipelines/storage_set.h"
 #include "render/pipelines/variant_cache.h"
 #include "render/steps/order.h"
 
@@ -19,22 +20,13 @@ namespace froxel::render {
 
 namespace {
 
-using Type = vk::DescriptorType;
-
 constexpr uint32_t kBindings = 2; // storage buffers: pixels, planes
-
-vk::raii::DescriptorSetLayout makePlanesSetLayout(const gpu::Device& device) {
-    const auto stage = vk::ShaderStageFlagBits::eCompute;
-    const std::array bindings = {vk::DescriptorSetLayoutBinding{0, Type::eStorageBuffer, 1, stage},
-                                 vk::DescriptorSetLayoutBinding{1, Type::eStorageBuffer, 1, stage}};
-    return gpu::makeSetLayout(device, bindings);
-}
 
 // Shared by every view.
 class PlanesPipelines {
   public:
     explicit PlanesPipelines(DeviceResources& shared)
-        : device_(shared.device), set_layout_(makePlanesSetLayout(device_)),
+        : device_(shared.device), set_layout_(storageLayout(device_, kBindings)),
           layout_(gpu::makePipelineLayout(device_, {*set_layout_}, sizeof(io::PlanesPicture))),
           made_(shared.timeline, shared.variants, Pipelines::kKeptScreen) {}
 
@@ -69,14 +61,9 @@ struct PlanesTargets final : StepTargets {
 };
 
 // One a frame slot.
-struct PlanesSet {
+struct PlanesSet : StorageSet {
     PlanesSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
-        : pool(gpu::makeDescriptorPool(
-              device, std::array{vk::DescriptorPoolSize{Type::eStorageBuffer, kBindings}})),
-          set(gpu::makeSet(device, pool, layout)) {}
-
-    vk::raii::DescriptorPool pool;
-    vk::raii::DescriptorSet set;
+        : StorageSet(device, layout, kBindings) {}
 };
 
 class Planes final : public Step {
@@ -121,18 +108,11 @@ void Planes::prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) {
         targets_ = std::make_shared<PlanesTargets>(device, sizes_.bytes());
     }
     slot.step_targets.hold(targets_);
-    const auto& set = slot.stored.findOrMake<PlanesSet>(
-        device, scene_.shared.stored<PlanesPipelines>().setLayout());
     const std::array<vk::DescriptorBufferInfo, kBindings> buffers = {
         {{*packedPixels(slot, Resource::kPixels).handle, 0, VK_WHOLE_SIZE},
          {*targets_->planes.handle, 0, VK_WHOLE_SIZE}}};
-    device.handle().updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = *set.set,
-                               .dstBinding = 0,
-                               .descriptorCount = kBindings,
-                               .descriptorType = Type::eStorageBuffer,
-                               .pBufferInfo = buffers.data()},
-        {});
+    slot.stored.findOrMake<PlanesSet>(device, scene_.shared.stored<PlanesPipelines>().setLayout())
+        .write(buffers);
 }
 
 void Planes::record(const FrameContext& frame) const {
@@ -142,7 +122,7 @@ void Planes::record(const FrameContext& frame) const {
     auto& pipelines = scene_.shared.stored<PlanesPipelines>();
     cmd.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines.pipeline(sampling_));
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.layout(), 0,
-                           *frame.slot.stored.get<PlanesSet>().set, {});
+                           frame.slot.stored.get<PlanesSet>().handle(), {});
     cmd.pushConstants<io::PlanesPicture>(pipelines.layout(), vk::ShaderStageFlagBits::eCompute, 0,
                                          sizes_.picture);
     const uint32_t words = sizes_.lumaWords() + sizes_.chromaWords();

@@ -7,6 +7,7 @@
 #include "render/pipelines/pass_names.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/pipelines/shared_pipeline.h"
+#include "render/pipelines/storage_set.h"
 #include "render/steps/order.h"
 
 #include <array>
@@ -78,10 +79,7 @@ class RadianceReadback final : public Step {
 // Shared by every view.
 struct LinearDepthPipeline {
     explicit LinearDepthPipeline(const DeviceResources& shared)
-        : set_layout(gpu::makeSetLayout(
-              shared.device,
-              std::array{vk::DescriptorSetLayoutBinding{0, vk::DescriptorType::eStorageBuffer, 1,
-                                                        vk::ShaderStageFlagBits::eCompute}})),
+        : set_layout(storageLayout(shared.device, 1)),
           layout(gpu::makePipelineLayout(
               shared.device,
               {shared.pipelines.frameLayout(), shared.pipelines.screenLayout(), *set_layout})),
@@ -94,14 +92,9 @@ struct LinearDepthPipeline {
 };
 
 // One a frame slot.
-struct LinearDepthSet {
+struct LinearDepthSet : StorageSet {
     LinearDepthSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
-        : pool(gpu::makeDescriptorPool(
-              device, std::array{vk::DescriptorPoolSize{vk::DescriptorType::eStorageBuffer, 1}})),
-          set(gpu::makeSet(device, pool, layout)) {}
-
-    vk::raii::DescriptorPool pool;
-    vk::raii::DescriptorSet set;
+        : StorageSet(device, layout, 1) {}
 };
 
 // Writes where the host reads.
@@ -114,17 +107,9 @@ class LinearDepth final : public Step {
     }
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
         const auto& shared = scene_.shared.stored<LinearDepthPipeline>();
-        const auto& set =
-            slot.stored.findOrMake<LinearDepthSet>(scene_.shared.device, *shared.set_layout);
-        const vk::DescriptorBufferInfo buffer{*slot.readback->output(Output::kDepth).handle, 0,
-                                              VK_WHOLE_SIZE};
-        scene_.shared.device.handle().updateDescriptorSets(
-            vk::WriteDescriptorSet{.dstSet = *set.set,
-                                   .dstBinding = 0,
-                                   .descriptorCount = 1,
-                                   .descriptorType = vk::DescriptorType::eStorageBuffer,
-                                   .pBufferInfo = &buffer},
-            {});
+        const gpu::Buffer& depths = slot.readback->output(Output::kDepth);
+        slot.stored.findOrMake<LinearDepthSet>(scene_.shared.device, *shared.set_layout)
+            .write(std::array{vk::DescriptorBufferInfo{*depths.handle, 0, VK_WHOLE_SIZE}});
     }
     void record(const FrameContext& frame) const override {
         inParts(frame, frame.drawn(), cost(frame.costs), recordPart);
@@ -143,7 +128,7 @@ class LinearDepth final : public Step {
         auto& shared = frame.scene.shared.stored<LinearDepthPipeline>();
         shared.pipeline.bind(cmd, frame.scene.shared.variants);
         const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
-                                 *frame.slot.stored.get<LinearDepthSet>().set};
+                                 frame.slot.stored.get<LinearDepthSet>().handle()};
         cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *shared.layout, 0, sets, {});
         dispatchOver(cmd, part);
     }

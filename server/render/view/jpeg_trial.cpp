@@ -36,7 +36,7 @@ Result<JpegTrial> tryJpeg(RenderDevice& on,
     auto& pipelines = shared.stored<JpegPipelines>();
     JpegScratch scratch(device, sizes);
     JpegSet set(device, pipelines.setLayout());
-    set.write(device, picture, *upload.handle, 0, scratch, file);
+    set.write(picture, *upload.handle, 0, scratch, file);
     gpu::Timestamps timestamps(device);
     JpegTrial trial;
     for (uint32_t i = 0; i < options.times; ++i) {
