@@ -29,7 +29,8 @@ void main() {
         uvec2 at = uvec2(4u * (c % picture.chroma_row), c / picture.chroma_row);
         uvec2 words = uvec2(0u);
         for (uint k = 0u; k < 4u; ++k) {
-            words |= uvec2(chromaAt(at.x + k, at.y) + 128) << (8u * k);
+            ChromaPixels pixels = chromaPixelsAt(at.x + k, at.y);
+            words |= uvec2(chromaOf(pixels, at.x + k) + 128) << (8u * k);
         }
         planes[i] = words.x;
         planes[i + chroma_words] = words.y;

@@ -11,10 +11,9 @@ ivec3 rgbAt(uint x, uint y) {
     return ivec3(pixel & 255u, pixel >> 8 & 255u, pixel >> 16 & 255u);
 }
 
-int lumaAt(uint x, uint y) {
-    ivec3 c = rgbAt(x, y);
-    return ((19595 * c.r + 38470 * c.g + 7471 * c.b + kHalf) >> 16) - 128;
-}
+int lumaOf(ivec3 c) { return ((19595 * c.r + 38470 * c.g + 7471 * c.b + kHalf) >> 16) - 128; }
+
+int lumaAt(uint x, uint y) { return lumaOf(rgbAt(x, y)); }
 
 // Blue's and red's difference.
 ivec2 chromaOf(ivec3 c) {
@@ -23,15 +22,31 @@ ivec2 chromaOf(ivec3 c) {
            16;
 }
 
-// Of a mean's sum of four samples what is dropped is a half up in odd columns, down in even ones.
-ivec2 chromaAt(uint x, uint y) {
-    if (kSampling == 1u) {
-        return chromaOf(rgbAt(x, y)) - 128;
+// The pixels of a chroma sample, row by row; the first of four at kSampling 1. Rows of chroma go on
+// past the picture's last, whose pixels these are then.
+struct ChromaPixels {
+    ivec3 rgb[4];
+    uint row; // of chroma, that they are of
+};
+
+ChromaPixels chromaPixelsAt(uint x, uint y) {
+    ChromaPixels pixels;
+    pixels.row = min(y, (picture.height_px - 1u) / kSampling);
+    for (uint i = 0u; i < kSampling * kSampling; ++i) {
+        pixels.rgb[i] =
+            rgbAt(kSampling * x + i % kSampling, kSampling * pixels.row + i / kSampling);
     }
-    uint row = min(y, (picture.height_px - 1u) / 2u); // the picture's last goes on
+    return pixels;
+}
+
+// Of a mean's sum of four samples what is dropped is a half up in odd columns, down in even ones.
+ivec2 chromaOf(ChromaPixels pixels, uint x) {
+    if (kSampling == 1u) {
+        return chromaOf(pixels.rgb[0]) - 128;
+    }
     ivec2 sum = ivec2(1 + int(x & 1u));
     for (uint i = 0u; i < 4u; ++i) {
-        sum += chromaOf(rgbAt(2u * x + (i & 1u), 2u * row + (i >> 1)));
+        sum += chromaOf(pixels.rgb[i]);
     }
     return (sum >> 2) - 128;
 }

@@ -2,6 +2,8 @@
 
 Usage: stills.py FROXEL [--rate 200] [--viewers 30] [--seconds 15] [--size 1280x720] [-- OPTIONS OF froxel serve]
 
+--viewers 0 measures stills alone.
+
 Each still is another one (its lights stand elsewhere), so none is given again. Prints
 
   - the time from a request to its answer's last byte, one after another on one connection;
@@ -12,7 +14,9 @@ Each still is another one (its lights stand elsewhere), so none is given again. 
 import argparse
 import concurrent.futures
 import http.client
+import itertools
 import json
+import math
 import statistics
 import subprocess
 import sys
@@ -22,24 +26,23 @@ import time
 
 from server import Server, split_arguments
 
-THREADS = 32  # that ask
+A_PROCESS = 125  # stills a second that one process asks for; more would wait for its interpreter
+THREADS = 16  # of such a process
+STRIDE = 100_000  # between the numbers of processes' stills
 
 
 class Asker:
     """Asks for one still after another; a connection a thread."""
 
-    def __init__(self, url, size):
+    def __init__(self, url, size, first=0):
         self.authority = url.split("/")[2]
         self.size = size
         self.local = threading.local()
-        self.number = 0
-        self.lock = threading.Lock()
+        self.numbers = itertools.count(first)
 
     def ask(self):
         """Seconds, and the status."""
-        with self.lock:
-            self.number += 1
-            number = self.number
+        number = next(self.numbers)
         if not hasattr(self.local, "connection"):
             self.local.connection = http.client.HTTPConnection(self.authority, timeout=70)
         begin = time.monotonic()
@@ -47,6 +50,26 @@ class Asker:
         answer = self.local.connection.getresponse()
         answer.read()
         return time.monotonic() - begin, answer.status
+
+
+def ask_at(url, size, first, rate, seconds):
+    """Stills at this rate by threads of this process; the answers."""
+    asker = Asker(url, size, first)
+    with concurrent.futures.ThreadPoolExecutor(THREADS) as pool:
+        asked = []
+        begin = time.monotonic()
+        while time.monotonic() < begin + seconds:
+            asked.append(pool.submit(asker.ask))
+            time.sleep(max(0.0, begin + len(asked) / rate - time.monotonic()))
+        return [each.result() for each in asked]
+
+
+def asked_at(url, size, rate, seconds):
+    """Stills at this rate by as many processes as that takes; the answers."""
+    count = math.ceil(rate / A_PROCESS)
+    with concurrent.futures.ProcessPoolExecutor(count) as pool:
+        asked = [pool.submit(ask_at, url, size, (at + 1) * STRIDE, rate / count, seconds) for at in range(count)]
+        return [answer for each in asked for answer in each.result()]
 
 
 def percentile(values, share):
@@ -64,23 +87,12 @@ def told(name, took):
     )
 
 
-def asked_at(asker, rate, until):
-    """Stills at this rate; the answers."""
-    with concurrent.futures.ThreadPoolExecutor(THREADS) as pool:
-        asked = []
-        begin = time.monotonic()
-        while time.monotonic() < until:
-            asked.append(pool.submit(asker.ask))
-            time.sleep(max(0.0, begin + len(asked) / rate - time.monotonic()))
-        return [each.result() for each in asked]
-
-
-def frames_a_second(froxel, url, viewers, seconds, beside=lambda until: None):
+def frames_a_second(froxel, url, viewers, seconds, beside=lambda: None):
     """Of each viewer, and what `beside` gave."""
     with tempfile.NamedTemporaryFile(suffix=".json") as report:
         command = [froxel, "load", url, "--viewers", str(viewers), "--seconds", str(seconds), "--json", report.name]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-        given = beside(time.monotonic() + seconds)
+        given = beside()
         if process.wait() != 0:
             sys.exit("a viewer failed")
         rates = [viewer["frames_per_s"] for viewer in json.load(report)["each"]]
@@ -103,12 +115,12 @@ def main():
         for _ in range(20):
             asker.ask()
         print(told("one after another", [asker.ask() for _ in range(200)]), flush=True)
-        until = time.monotonic() + options.seconds
-        print(told(f"{options.rate:.0f} a second, no viewers", asked_at(asker, options.rate, until)), flush=True)
+        at_rate = (server.url, options.size, options.rate, options.seconds)
+        print(told(f"{options.rate:.0f} a second, no viewers", asked_at(*at_rate)), flush=True)
         run = (options.froxel, server.url, options.viewers, options.seconds)
-        for name in ("first", "again"):
+        for name in ("first", "again") if options.viewers else ():
             alone, _ = frames_a_second(*run)
-            beside, took = frames_a_second(*run, lambda until: asked_at(asker, options.rate, until))
+            beside, took = frames_a_second(*run, lambda: asked_at(*at_rate))
             print(
                 f"{options.viewers} viewers, {name}: {alone:.1f} frames a second each alone, "
                 f"{beside:.1f} beside stills ({100 * (beside / alone - 1):+.1f} %)"

@@ -176,7 +176,7 @@ TEST_F(JpegFrame, AfterAFrameThatWasGivenUp_IsTheFileOfItsPixels) {
 TEST_F(JpegFrame, Passes_AreTimed) {
     inputs_.form.jpeg = formatOf({.quality = 85});
     const auto frame = draw(inputs_);
-    for (const char* name : {"jpeg_blocks", "jpeg_count", "jpeg_stuff"}) {
+    for (const char* name : {"jpeg_blocks", "jpeg_place", "jpeg_stuff"}) {
         EXPECT_TRUE(std::ranges::any_of(frame.stats.passes, [name](const PassTime& pass) {
             return pass.name == name;
         })) << name;

@@ -48,6 +48,23 @@ Picture cosines(uint32_t seed) {
     return picture;
 }
 
+// Black and white blocks with noise in each colour: differences of DC with the longest codes, which
+// begin with 1s, behind blocks that end with any bits.
+Picture flips(uint32_t seed) {
+    Picture picture = blank(1000, 600);
+    std::mt19937 random(seed);
+    for (uint32_t y = 0; y < picture.height_px; y += 8) {
+        for (uint32_t x = 0; x < picture.width_px; x += 8) {
+            const uint32_t grey = random() % 2 == 0 ? 0 : 224;
+            for (uint32_t i = 0; i < 64 * 4; ++i) {
+                picture.bytes[(y + i / 32) * picture.stride_bytes + x * 4 + i % 32] =
+                    static_cast<std::byte>(grey + random() % 32);
+            }
+        }
+    }
+    return picture;
+}
+
 class DeviceJpeg : public SharedGpuTest {
   protected:
     static void SetUpTestSuite() {
@@ -124,6 +141,21 @@ TEST_F(DeviceJpeg, LargestCoefficients_HaveTurboJpegsBytes) {
                 expectSame(cosines(seed), {.quality = quality, .chroma = chroma});
             }
         }
+    }
+}
+
+TEST_F(DeviceJpeg, LongestCodesOfDc_HaveTurboJpegsBytes) {
+    for (uint32_t seed = 0; seed < 4; ++seed) {
+        for (const Chroma chroma : kChromas) {
+            expectSame(flips(seed), {.quality = 100, .chroma = chroma});
+        }
+    }
+}
+
+// A last byte that is FF once 1s fill it has a 0 stuffed behind it.
+TEST_F(DeviceJpeg, AnyLastBits_HaveTurboJpegsBytes) {
+    for (uint32_t seed = 0; seed < 64; ++seed) {
+        expectSame(noise(8, 8, seed, false), {.quality = 100, .chroma = Chroma::k444});
     }
 }
 

@@ -20,11 +20,10 @@ JpegSizes::JpegSizes(const settings::Size& size, const JpegFormat& format) {
     picture.height_px = size.height_px;
     picture.units_across = over(size.width_px, unit_px);
     picture.unit_count = picture.units_across * over(size.height_px, unit_px);
-    run_count = over(picture.unit_count, io::kJpegGroupBlocks / unit_blocks);
-    picture.chunk_sums = run_count + 1;
-    code_bytes = (uint64_t{run_count} * io::kJpegGroupWords + 1) * sizeof(uint32_t);
-    const auto most_chunks = static_cast<uint32_t>(code_bytes / io::kJpegChunkBytes + 1);
-    sum_bytes = (uint64_t{picture.chunk_sums} + most_chunks + 1) * sizeof(uint32_t);
+    picture.run_count = over(picture.unit_count, io::kJpegGroupBlocks / unit_blocks);
+    run_bytes = picture.run_count * sizeof(io::JpegRun);
+    place_bytes = (uint64_t{picture.run_count} + 1) * sizeof(io::JpegPlace);
+    code_bytes = (uint64_t{picture.run_count} * io::kJpegGroupWords + 1) * sizeof(uint32_t);
     // As much as TurboJPEG has room for: tjBufSize().
     const uint32_t samples = unit_blocks * static_cast<uint32_t>(kJpegBlock);
     const uint32_t most = 2 * picture.unit_count * samples + 2048;

@@ -18,9 +18,10 @@ struct JpegSizes {
     JpegSizes(const settings::Size& size, const JpegFormat& format);
 
     io::JpegPicture picture{};
-    uint32_t run_count = 0; // of units, a workgroup each
-    uint64_t sum_bytes = 0;
+    uint64_t run_bytes = 0;
+    uint64_t place_bytes = 0;
     uint64_t code_bytes = 0;
+    [[nodiscard]] uint64_t scratchBytes() const { return run_bytes + place_bytes + code_bytes; }
     uint32_t header_at = 0;  // of the file, in the host's buffer
     uint64_t file_bytes = 0; // of that buffer
 };

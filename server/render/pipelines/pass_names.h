@@ -53,7 +53,7 @@ inline constexpr const char* kWires = "wires";
 inline constexpr const char* kTonemap = "tonemap";
 inline constexpr const char* kFxaa = "fxaa";
 inline constexpr const char* kJpegBlocks = "jpeg_blocks";
-inline constexpr const char* kJpegCount = "jpeg_count";
+inline constexpr const char* kJpegPlace = "jpeg_place";
 inline constexpr const char* kJpegStuff = "jpeg_stuff";
 inline constexpr const char* kPlanes = "planes";
 inline constexpr const char* kReadback = "readback";
@@ -85,7 +85,7 @@ inline constexpr std::array kPricedWith = {PricedWith{pass::kAssignLines, pass::
                                            PricedWith{pass::kWeighted, pass::kTransparent},
                                            PricedWith{pass::kPeelCount, pass::kPeel},
                                            PricedWith{pass::kExposureMeter, pass::kExposure},
-                                           PricedWith{pass::kJpegCount, pass::kJpegBlocks},
+                                           PricedWith{pass::kJpegPlace, pass::kJpegBlocks},
                                            PricedWith{pass::kJpegStuff, pass::kJpegBlocks}};
 
 // The label of the price that holds the time of a pass.

@@ -21,7 +21,7 @@ class Jpeg final : public Step {
         passes.push_back({pass::kJpegBlocks, timeOf(costs)});
     }
     void addMemory(NeedList& need) const override {
-        need.buffer("jpeg codes", sizes_.sum_bytes + sizes_.code_bytes);
+        need.buffer("jpeg codes", sizes_.scratchBytes());
     }
     void gather(FrameUpload& upload, FrameBlocks& /*blocks*/) override {
         tables_at_ = upload.add(std::span<const io::JpegTables>(tables_));
@@ -79,7 +79,7 @@ void Jpeg::prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) {
 void Jpeg::record(const FrameContext& frame) const {
     frame.pieces.add(timeOf(frame.costs));
     recordJpeg(frame.slot.cmd, frame.slot.timestamps, scene_.shared.stored<JpegPipelines>(),
-               *format_, sizes_, frame.slot.stored.get<JpegSet>(), *scratch_);
+               *format_, sizes_, frame.slot.stored.get<JpegSet>());
 }
 
 } // namespace

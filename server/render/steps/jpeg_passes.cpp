@@ -68,7 +68,7 @@ io::JpegTables tablesFor(const JpegFormat& format, const JpegFormat::Tables& its
 
 gpu::Spirv codeOf(JpegPass pass) {
     return pass == JpegPass::kBlocks  ? shaders::jpeg_blocks_comp()
-           : pass == JpegPass::kCount ? shaders::jpeg_count_comp()
+           : pass == JpegPass::kPlace ? shaders::jpeg_place_comp()
                                       : shaders::jpeg_stuff_comp();
 }
 
@@ -80,7 +80,7 @@ JpegTablePair jpegTables(const JpegFormat& format) {
 
 std::string jpegUnusable(const gpu::Device& device) {
     const auto& limits = device.limits();
-    if (limits.maxComputeWorkGroupInvocations < std::max(io::kJpegGroup, io::kJpegChunk)) {
+    if (limits.maxComputeWorkGroupInvocations < io::kJpegSumGroup) {
         return "the device's workgroups are too small";
     }
     if (limits.maxPerStageDescriptorStorageBuffers < kBindings) {
@@ -105,14 +105,13 @@ vk::Pipeline JpegPipelines::pipeline(JpegPass pass, const JpegFormat& format) {
 }
 
 JpegScratch::JpegScratch(const gpu::Device& device, const JpegSizes& sizes) : arena_(device) {
-    using Usage = vk::BufferUsageFlagBits;
-    const auto make = [&](vk::DeviceSize bytes, vk::BufferUsageFlags more) {
-        return arena_.makeBuffer(bytes, Usage::eStorageBuffer | more, gpu::MemoryUse::kDevice,
-                                 "jpeg codes");
+    const auto make = [&](vk::DeviceSize bytes) {
+        return arena_.makeBuffer(bytes, vk::BufferUsageFlagBits::eStorageBuffer,
+                                 gpu::MemoryUse::kDevice, "jpeg codes");
     };
-    state_ = make(sizeof(io::JpegState), Usage::eTransferDst | Usage::eIndirectBuffer);
-    sums_ = make(sizes.sum_bytes, {});
-    codes_ = make(sizes.code_bytes, {});
+    runs_ = make(sizes.run_bytes);
+    places_ = make(sizes.place_bytes);
+    codes_ = make(sizes.code_bytes);
 }
 
 JpegSet::JpegSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
@@ -126,8 +125,8 @@ void JpegSet::write(const gpu::Buffer& pixels,
     const std::array<vk::DescriptorBufferInfo, kBindings> buffers = {{
         {*pixels.handle, 0, VK_WHOLE_SIZE},
         {upload, tables, sizeof(JpegTablePair)},
-        {*scratch.state().handle, 0, VK_WHOLE_SIZE},
-        {*scratch.sums().handle, 0, VK_WHOLE_SIZE},
+        {*scratch.runs().handle, 0, VK_WHOLE_SIZE},
+        {*scratch.places().handle, 0, VK_WHOLE_SIZE},
         {*scratch.codes().handle, 0, VK_WHOLE_SIZE},
         {*file.handle, 0, VK_WHOLE_SIZE},
     }};
@@ -139,34 +138,22 @@ void recordJpeg(const vk::raii::CommandBuffer& cmd,
                 JpegPipelines& pipelines,
                 const JpegFormat& format,
                 const JpegSizes& sizes,
-                const JpegSet& set,
-                const JpegScratch& scratch) {
-    const auto bind = [&](JpegPass pass) {
-        cmd.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines.pipeline(pass, format));
-    };
-    const vk::Buffer state = *scratch.state().handle;
+                const JpegSet& set) {
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.layout(), 0, set.handle(),
                            {});
     cmd.pushConstants<io::JpegPicture>(pipelines.layout(), vk::ShaderStageFlagBits::eCompute, 0,
                                        sizes.picture);
-    {
-        const gpu::PassScope scope(timestamps, cmd, pass::kJpegBlocks);
-        // Each time: the frame before may have been given up in the middle.
-        cmd.fillBuffer(state, 0, VK_WHOLE_SIZE, 0);
-        computeAfterTransfer(cmd);
-        bind(JpegPass::kBlocks);
-        cmd.dispatch(sizes.run_count, 1, 1);
-    }
-    nextIndirectPass(cmd);
-    {
-        const gpu::PassScope scope(timestamps, cmd, pass::kJpegCount);
-        bind(JpegPass::kCount);
-        cmd.dispatchIndirect(state, offsetof(io::JpegState, count));
-    }
-    nextIndirectPass(cmd);
-    const gpu::PassScope scope(timestamps, cmd, pass::kJpegStuff);
-    bind(JpegPass::kStuff);
-    cmd.dispatchIndirect(state, offsetof(io::JpegState, stuff));
+    const auto record = [&](JpegPass pass, const char* name, uint32_t groups) {
+        const gpu::PassScope scope(timestamps, cmd, name);
+        cmd.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines.pipeline(pass, format));
+        cmd.dispatch(groups, 1, 1);
+    };
+    const uint32_t runs = sizes.picture.run_count;
+    record(JpegPass::kBlocks, pass::kJpegBlocks, runs);
+    nextComputePass(cmd);
+    record(JpegPass::kPlace, pass::kJpegPlace, 1);
+    nextComputePass(cmd);
+    record(JpegPass::kStuff, pass::kJpegStuff, runs);
 }
 
 } // namespace froxel::render

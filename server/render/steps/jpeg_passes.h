@@ -1,5 +1,5 @@
 // The passes that make a baseline JPEG of packed pixels, byte for byte TurboJPEG's: one from pixels
-// to the codes of runs of units, one that counts the bytes to be stuffed, one that writes the file
+// to the codes of runs of units, one that places the runs in the scan, one that writes the file
 // where the host reads it. No restart markers: differences of DC are known once the blocks are, and
 // sums over runs place their codes.
 #pragma once
@@ -28,7 +28,7 @@ using JpegTablePair = std::array<io::JpegTables, 2>;
 // Why the device cannot make them; empty: it can.
 [[nodiscard]] std::string jpegUnusable(const gpu::Device& device);
 
-enum class JpegPass : uint8_t { kBlocks, kCount, kStuff };
+enum class JpegPass : uint8_t { kBlocks, kPlace, kStuff };
 
 // Shared by every view.
 class JpegPipelines {
@@ -53,16 +53,16 @@ class JpegScratch final : public StepTargets {
     JpegScratch(const gpu::Device& device, const JpegSizes& sizes);
 
     [[nodiscard]] bool fits(const JpegSizes& sizes) const {
-        return sums_.size_bytes == sizes.sum_bytes && codes_.size_bytes == sizes.code_bytes;
+        return runs_.size_bytes == sizes.run_bytes && codes_.size_bytes == sizes.code_bytes;
     }
-    [[nodiscard]] const gpu::Buffer& state() const { return state_; }
-    [[nodiscard]] const gpu::Buffer& sums() const { return sums_; }
+    [[nodiscard]] const gpu::Buffer& runs() const { return runs_; }
+    [[nodiscard]] const gpu::Buffer& places() const { return places_; }
     [[nodiscard]] const gpu::Buffer& codes() const { return codes_; }
 
   private:
     gpu::MemoryArena arena_;
-    gpu::Buffer state_;
-    gpu::Buffer sums_;
+    gpu::Buffer runs_;
+    gpu::Buffer places_;
     gpu::Buffer codes_;
 };
 
@@ -90,7 +90,6 @@ void recordJpeg(const vk::raii::CommandBuffer& cmd,
                 JpegPipelines& pipelines,
                 const JpegFormat& format,
                 const JpegSizes& sizes,
-                const JpegSet& set,
-                const JpegScratch& scratch);
+                const JpegSet& set);
 
 } // namespace froxel::render

@@ -42,7 +42,7 @@ Result<JpegTrial> tryJpeg(RenderDevice& on,
     for (uint32_t i = 0; i < options.times; ++i) {
         timestamps.reset();
         shared.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
-            recordJpeg(cmd, timestamps, pipelines, format, sizes, set, scratch);
+            recordJpeg(cmd, timestamps, pipelines, format, sizes, set);
             recordHostRead(cmd);
         });
         FrameStats stats;
