@@ -162,6 +162,7 @@ void FramePipeline::finish(Losses losses) {
     if (more) {
         startEncoding();
     }
+    progressed_ = true;
     on_progress_();
 }
 

@@ -10,6 +10,7 @@
 #include "encode/encode_pool.h"
 #include "session/stream_port.h"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -30,7 +31,8 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
   public:
     static constexpr uint32_t kCapacity = 2;
 
-    // `on_progress` runs on an encoder thread whenever a picture has left; must not throw.
+    // `on_progress` runs whenever a picture has left, on an encoder thread or in push(); must not
+    // throw.
     // `session` is for the log; `fates` counts.
     FramePipeline(encode::EncodePool& pool,
                   session::SessionId session,
@@ -43,6 +45,8 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     void push(DrawnFrame frame);
     // Pictures here, in the encoder or before it. Any thread.
     [[nodiscard]] uint32_t size() const;
+    // Whether a picture has left since the last call. Any thread.
+    [[nodiscard]] bool takeProgress() { return progressed_.load() && progressed_.exchange(false); }
     // Pictures that never reached the connection, since the last call. Any thread.
     struct Losses {
         uint32_t count = 0;
@@ -65,6 +69,7 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     const std::shared_ptr<FrameFates> fates_;
     const std::function<void()> on_progress_;
 
+    std::atomic<bool> progressed_{false};
     mutable std::mutex mutex_;
     // Its pixels have gone to the encoder. Whoever fills it owns what is inside until finish();
     // the mutex guards only whether it is filled.

@@ -191,10 +191,14 @@ std::optional<uint64_t> FrameScheduler::next(TimePoint now) {
             ready.emplace_back(viewer, &entry);
         }
     }
-    std::sort(ready.begin(), ready.end(), [this](const auto& one, const auto& other) {
-        return isBefore(*one.second, *other.second);
-    });
-    for (const auto& [viewer, entry] : ready) {
+    // A heap, since the first one is rarely held.
+    const auto is_behind = [this](const auto& one, const auto& other) {
+        return isBefore(*other.second, *one.second);
+    };
+    std::ranges::make_heap(ready, is_behind);
+    for (; !ready.empty(); ready.pop_back()) {
+        std::ranges::pop_heap(ready, is_behind);
+        const auto& [viewer, entry] = ready.back();
         const Entry* other = heldFor(*entry, now);
         if (other == nullptr) {
             idle_for_.reset();

@@ -192,7 +192,7 @@ void RenderLoop::serve(const std::stop_token& stop) {
 
 std::optional<TimePoint> RenderLoop::nextWake(std::optional<TimePoint> scenes_at) const {
     std::optional<TimePoint> next;
-    for (const auto& at : {scheduler_.nextDue(), refine_at_, scenes_at}) {
+    for (const auto& at : {scheduler_.nextDue(), first_ready_at_, scenes_at}) {
         next = next && at ? std::min(next, at) : next ? next : at;
     }
     return next;
@@ -232,6 +232,7 @@ void RenderLoop::readNews() {
             }
         }
         Viewer& viewer = *entry;
+        viewer.look = true;
         viewer.granted = news.granted;
         viewer.leaving = news.left;
         viewer.delivery = news.delivery;
@@ -245,21 +246,22 @@ void RenderLoop::readNews() {
 void RenderLoop::takeNews(const std::stop_token& stop) {
     readNews();
     const TimePoint now = Clock::now();
-    refine_at_.reset();
+    first_ready_at_.reset();
     for (auto entry = viewers_.begin(); entry != viewers_.end();) {
         Viewer& viewer = *entry->second;
-        chargeEncoding(entry->first, viewer); // the last picture's as well
-        if (viewer.waiting && viewer.waitsInVain()) {
-            abandon(viewer);
+        if (viewer.pipeline->takeProgress() || (viewer.ready_at && *viewer.ready_at <= now)) {
+            viewer.look = true;
         }
-        if (viewer.leaving && viewer.idle()) {
-            scheduler_.remove(entry->first);
-            demand_.remove(entry->first);
+        // Most are as they were: what they cost each time is what bounds how many there can be.
+        if (viewer.look && hasGone(entry->first, viewer, now)) {
             entry = viewers_.erase(entry);
-        } else {
-            updateReadiness(entry->first, viewer, now);
-            ++entry;
+            continue;
         }
+        if (viewer.ready_at) {
+            first_ready_at_ =
+                first_ready_at_ ? std::min(*first_ready_at_, *viewer.ready_at) : viewer.ready_at;
+        }
+        ++entry;
     }
     if (watched_ && viewers_.empty()) {
         watched_ = false;
@@ -268,6 +270,21 @@ void RenderLoop::takeNews(const std::stop_token& stop) {
         malloc_trim(0);
         priceAgain(stop);
     }
+}
+
+// Whether there is nothing left of it; else tells the scheduler whether it is ready.
+bool RenderLoop::hasGone(SessionId id, Viewer& viewer, TimePoint now) {
+    chargeEncoding(id, viewer); // the last picture's as well
+    if (viewer.waiting && viewer.waitsInVain()) {
+        abandon(viewer);
+    }
+    if (viewer.leaving && viewer.idle()) {
+        scheduler_.remove(id);
+        demand_.remove(id);
+        return true;
+    }
+    updateReadiness(id, viewer, now);
+    return false;
 }
 
 // Its pipelines are there now, and the device's clocks and whoever else uses it may be others.
@@ -301,6 +318,8 @@ void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
     const FramePipeline::Losses losses = viewer.pipeline->takeLosses();
     viewer.started -= losses.count;
     viewer.changed = viewer.changed || losses.retry;
+    viewer.look = false;
+    viewer.ready_at.reset();
     using Ready = FrameScheduler::Ready;
     if (viewer.waiting) {
         scheduler_.setReady(id, Ready::kPiece, viewer.waiting->piece_estimate, now);
@@ -310,14 +329,16 @@ void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
         viewer.dropMean();
         viewer.refinement.onSamplesLost();
     }
+    const auto due = viewer.wantsFrameAt();
     const bool has_room = viewer.hasRoom() && (!viewer.beginsMean() || meansFit());
-    const auto due = has_room ? viewer.wantsFrameAt() : std::nullopt;
-    const bool ready = due && *due <= now;
+    const bool ready = has_room && due && *due <= now;
     const Seconds piece = viewer.drawn ? viewer.piece_cost : kUnknownPiece;
     scheduler_.setReady(id, ready ? Ready::kFrame : Ready::kNo, piece, now);
-    if (due && *due > now) {
-        refine_at_ = refine_at_ ? std::min(*refine_at_, *due) : *due;
+    if (due && has_room && !ready) {
+        viewer.ready_at = due;
     }
+    // Others take and leave memory for means; and a slot is free without a word.
+    viewer.look = due && (viewer.beginsMean() || (!has_room && viewer.started < viewer.granted));
 }
 
 // Whether another view may add up samples besides those that do.
@@ -352,6 +373,7 @@ bool RenderLoop::startNext() {
     }
     scheduler_.onStarted(*id);
     Viewer& viewer = *viewers_.at(*id);
+    viewer.look = true;
     if (viewer.waiting || beginFrame(*id, viewer, now)) {
         submitPiece(viewer);
     }
@@ -503,6 +525,7 @@ void RenderLoop::finishOldest() {
     submitted_.pop_front();
     BegunFrame& frame = *piece.frame;
     Viewer& viewer = *viewers_.at(frame.id);
+    viewer.look = true;
     auto collected = viewer.source->collect();
     if (!collected && collected.error().code != ErrorCode::kCapacity) {
         throw StartupError(collected.error());

@@ -109,6 +109,7 @@ class RenderLoop final : public session::StreamPort {
     void run(const std::stop_token& stop);
     void serve(const std::stop_token& stop);
     void takeNews(const std::stop_token& stop);
+    [[nodiscard]] bool hasGone(session::SessionId id, Viewer& viewer, TimePoint now);
     void readNews();
     void priceAgain(const std::stop_token& stop);
     void takeState(Viewer& viewer, const ViewerNews& news);
@@ -149,7 +150,7 @@ class RenderLoop final : public session::StreamPort {
     std::optional<double> priced_at_; // at this pace of the device; none: its first
     FrameScheduler scheduler_;
     DeviceDemand demand_;
-    std::optional<TimePoint> refine_at_; // the first viewer's that rests
+    std::optional<TimePoint> first_ready_at_; // of the viewers
     std::unique_ptr<FrameSource> source_;
     std::map<session::SessionId, std::unique_ptr<Viewer>> viewers_;
     std::deque<Piece> submitted_;      // oldest first

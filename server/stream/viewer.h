@@ -73,6 +73,9 @@ struct Viewer {
     TimePoint paced_until{};   // by the delivery's interval
     TimePoint shown_at{};      // of the frame begun last
     TimePoint ask_again{};     // nothing can begin before; see FrameWork::piece_count
+    // Something has happened to it since its readiness was told, or may at any time.
+    bool look = true;
+    std::optional<TimePoint> ready_at;        // when it becomes ready if nothing happens before
     std::optional<TimePoint> compiling_since; // shaders that the next picture needs
     bool told_compiling = false;
     bool changed = true;

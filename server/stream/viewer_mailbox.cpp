@@ -5,8 +5,10 @@
 
 namespace froxel::stream {
 
-void ViewerMailbox::publish(Slot& slot) {
-    slot.fresh = true;
+void ViewerMailbox::publish(session::SessionId id, Slot& slot) {
+    if (!std::exchange(slot.fresh, true)) {
+        fresh_.push_back(id);
+    }
     awake_ = true;
     wake_.notify_one();
 }
@@ -22,7 +24,7 @@ Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink>
     const session::SessionId id = ++last_id_;
     Slot& slot = slots_[id];
     slot.news = {id, std::move(sink), std::move(account), state, now, 0, {}, false};
-    publish(slot);
+    publish(id, slot);
     return id;
 }
 
@@ -39,7 +41,7 @@ void ViewerMailbox::change(session::SessionId id, const Change& apply) {
         return;
     }
     apply(found->second.news);
-    publish(found->second);
+    publish(id, found->second);
 }
 
 void ViewerMailbox::update(session::SessionId id,
@@ -77,21 +79,25 @@ void ViewerMailbox::close(Error reason) {
 std::vector<ViewerNews> ViewerMailbox::take() {
     std::vector<ViewerNews> all;
     const std::lock_guard lock(mutex_);
-    for (auto slot = slots_.begin(); slot != slots_.end();) {
+    all.reserve(fresh_.size());
+    for (const session::SessionId id : fresh_) {
+        const auto slot = slots_.find(id);
         ViewerNews& news = slot->second.news;
-        if (std::exchange(slot->second.fresh, false)) {
-            all.push_back(news);
-            news.state.reset();
+        slot->second.fresh = false;
+        all.push_back({id, std::move(news.sink), std::exchange(news.account, std::nullopt),
+                       std::exchange(news.state, std::nullopt), news.arrived, news.granted,
+                       news.delivery, news.left});
+        if (news.left) {
+            slots_.erase(slot);
         }
-        slot = news.left ? slots_.erase(slot) : std::next(slot);
     }
+    fresh_.clear();
     return all;
 }
 
 bool ViewerMailbox::hasNews() const {
     const std::lock_guard lock(mutex_);
-    return std::any_of(slots_.begin(), slots_.end(),
-                       [](const auto& slot) { return slot.second.fresh; });
+    return !fresh_.empty();
 }
 
 void ViewerMailbox::wait(const std::stop_token& stop, std::optional<TimePoint> deadline) {

@@ -19,8 +19,8 @@ namespace froxel::stream {
 // What is new about one session.
 struct ViewerNews {
     session::SessionId id = 0;
-    std::weak_ptr<session::FrameSink> sink;
-    std::optional<session::Account> account;    // none: beside the sessions
+    std::weak_ptr<session::FrameSink> sink;     // in the first news alone
+    std::optional<session::Account> account;    // likewise; none: beside the sessions
     std::optional<session::SessionState> state; // none: as before
     TimePoint arrived{};                        // of the command behind `state`
     uint64_t granted = 0;                       // as StreamPort::grant
@@ -60,7 +60,7 @@ class ViewerMailbox {
     // Of a session that is present; under the lock.
     template <class Change>
     void change(session::SessionId id, const Change& apply);
-    void publish(Slot& slot);
+    void publish(session::SessionId id, Slot& slot);
 
     mutable std::mutex mutex_;
     std::condition_variable_any wake_;
@@ -68,6 +68,7 @@ class ViewerMailbox {
     std::optional<Error> closed_;
     session::SessionId last_id_ = 0;
     std::map<session::SessionId, Slot> slots_; // present sessions, and departed ones until taken
+    std::vector<session::SessionId> fresh_;    // of these; no more often than once
 };
 
 } // namespace froxel::stream
