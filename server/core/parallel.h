@@ -13,8 +13,9 @@ namespace froxel {
 // How many threads pay for so many things, of which each should have `least_each`. At least 1, at
 // most as many as the machine has, or 16: they are started one after another.
 [[nodiscard]] inline size_t threadCount(size_t count, size_t least_each) {
-    return std::clamp<size_t>(count / least_each, 1,
-                              std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
+    // Asked once: it reads a file of the system.
+    static const size_t most = std::clamp(std::thread::hardware_concurrency(), 1U, 16U);
+    return std::clamp<size_t>(count / least_each, 1, most);
 }
 
 // Cuts [0, count) into as many ranges as there are threads, calls job(thread, begin, end) once for
