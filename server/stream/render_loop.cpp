@@ -384,7 +384,12 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
     const std::shared_ptr<BegunFrame> frame = viewer.build(id, now);
     const auto work = beginWork(viewer, *frame);
     const Seconds host = spentSince(now);
-    scheduler_.charge(id, host);
+    // Whoever is first to need what all share, such as pipelines, does not pay for it: it would
+    // wait for its picture until everybody has had as much.
+    const bool begins_nothing = work && !work->half_built && work->piece_count == 0;
+    if (!begins_nothing) {
+        scheduler_.charge(id, host);
+    }
     options_.on_begun(host);
     warnOfLongStep("begin", host, {}, id, frame->state);
     frame->cost += host;
@@ -408,7 +413,7 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
         }
         return false;
     }
-    if (work->piece_count == 0) {
+    if (begins_nothing) {
         viewer.ask_again = now + kVariantsPoll;
         viewer.noteCompiling(true, now);
         return false;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -119,6 +120,7 @@ class FakeView final : public stream::ViewSource {
             return Error{ErrorCode::kUnsupported, "the fake device has no compute stage"};
         }
         if (device_->unready_count > 0) {
+            std::this_thread::sleep_for(device_->unready_time.load());
             --device_->unready_count;
             return FrameWork{.piece_count = 0};
         }

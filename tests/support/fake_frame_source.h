@@ -29,6 +29,7 @@ class FakeDevice {
     std::atomic<uint32_t> piece_count = 1;               // of frames that begin from now on
     std::atomic<uint32_t> again_count = 0;   // that many frames need more than they were given
     std::atomic<uint32_t> unready_count = 0; // that many times nothing can begin yet
+    std::atomic<std::chrono::milliseconds> unready_time{}; // that finding that out takes
     std::atomic<uint32_t> stage_count = 1;   // calls of begin() for the same that a frame takes,
     std::atomic<uint64_t> small_area_px = 0; // unless it is this small
     std::atomic<uint64_t> stage_calls = 0;   // that did not begin it

@@ -23,6 +23,9 @@ RenderDevice::~RenderDevice() = default;
 
 void RenderDevice::makeVariantsInBackground(int niceness, unsigned thread_count) {
     resources_->variants.start(niceness, thread_count);
+    if (!resources_->device.traits().is_cpu) {
+        (void)resources_->assignment(); // else the first frame with lights would wait
+    }
 }
 
 namespace {

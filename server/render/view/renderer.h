@@ -47,7 +47,8 @@ class RenderDevice {
     RenderDevice& operator=(const RenderDevice&) = delete;
 
     // From now on variants are made on a thread of its own, and begin() does not wait for them. For
-    // those who use begin() alone. niceness: as nice(2).
+    // those who use begin() alone. niceness: as nice(2). Pipelines without variants, which a GPU
+    // assigns lights with, are made before it returns.
     void makeVariantsInBackground(int niceness, unsigned thread_count);
 
     [[nodiscard]] DeviceResources& resources() { return *resources_; }

@@ -58,6 +58,22 @@ TEST_F(RenderLoopPiecesTest, ShadersAreBeingMade_IsAskedAgain_WhileOthersAreDraw
     EXPECT_EQ(device_->begun_count, 2U); // one of them prices it
 }
 
+// They are everybody's: whoever needs them first does not wait until others have had as much time.
+TEST_F(RenderLoopPiecesTest, PipelinesThatTakeLong_AreNotPaidForByTheFirst) {
+    device_->unready_time = std::chrono::milliseconds(500);
+    device_->unready_count = 1;
+    const auto first = makeSink();
+    join(first, still(), 1);
+    while (device_->unready_count > 0) {
+        std::this_thread::yield();
+    }
+    device_->frame_time = std::chrono::milliseconds(1);
+    const auto other = makeSink();
+    join(other, moving(), kPlenty);
+    ASSERT_TRUE(first->waitForFrames(1));
+    EXPECT_LT(other->frames().size(), 200U);
+}
+
 TEST_F(RenderLoopPiecesTest, ShadersThatTakeLong_AreTold_AndTheirEnd) {
     device_->unready_count = 40; // asked for each 20 ms
     const auto sink = makeSink();
