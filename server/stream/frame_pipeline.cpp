@@ -162,7 +162,6 @@ void FramePipeline::finish(Losses losses) {
     if (more) {
         startEncoding();
     }
-    progressed_ = true;
     on_progress_();
 }
 

@@ -10,7 +10,6 @@
 #include "encode/encode_pool.h"
 #include "session/stream_port.h"
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -45,8 +44,6 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     void push(DrawnFrame frame);
     // Pictures here, in the encoder or before it. Any thread.
     [[nodiscard]] uint32_t size() const;
-    // Whether a picture has left since the last call. Any thread.
-    [[nodiscard]] bool takeProgress() { return progressed_.load() && progressed_.exchange(false); }
     // Pictures that never reached the connection, since the last call. Any thread.
     struct Losses {
         uint32_t count = 0;
@@ -69,7 +66,6 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     const std::shared_ptr<FrameFates> fates_;
     const std::function<void()> on_progress_;
 
-    std::atomic<bool> progressed_{false};
     mutable std::mutex mutex_;
     // Its pixels have gone to the encoder. Whoever fills it owns what is inside until finish();
     // the mutex guards only whether it is filled.

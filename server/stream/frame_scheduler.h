@@ -19,6 +19,8 @@
 #include "core/clock.h"
 #include "session/account.h"
 
+#include <boost/container/flat_map.hpp>
+
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -120,9 +122,9 @@ class FrameScheduler {
     const Seconds min_interval_;
     Seconds virtual_now_{0};
     Accounts accounts_;
-    std::map<uint64_t, Entry> viewers_;
-    uint64_t begun_count_ = 0;         // pieces
-    std::optional<uint64_t> idle_for_; // whom the idle device waits for
+    boost::container::flat_map<uint64_t, Entry> viewers_; // walked through for each piece
+    uint64_t begun_count_ = 0;                            // pieces
+    std::optional<uint64_t> idle_for_;                    // whom the idle device waits for
 };
 
 } // namespace froxel::stream

@@ -192,7 +192,9 @@ void RenderLoop::serve(const std::stop_token& stop) {
 
 std::optional<TimePoint> RenderLoop::nextWake(std::optional<TimePoint> scenes_at) const {
     std::optional<TimePoint> next;
-    for (const auto& at : {scheduler_.nextDue(), first_ready_at_, scenes_at}) {
+    const auto ready_at =
+        ready_at_.empty() ? std::nullopt : std::optional(ready_at_.begin()->first);
+    for (const auto& at : {scheduler_.nextDue(), ready_at, scenes_at}) {
         next = next && at ? std::min(next, at) : next ? next : at;
     }
     return next;
@@ -219,9 +221,9 @@ void RenderLoop::readNews() {
     for (const ViewerNews& news : mailbox_->take()) {
         auto& entry = viewers_[news.id];
         if (!entry) {
-            auto pipeline =
-                std::make_shared<FramePipeline>(pool_, news.id, news.sink, options_.fates,
-                                                [mailbox = mailbox_] { mailbox->wake(); });
+            auto pipeline = std::make_shared<FramePipeline>(
+                pool_, news.id, news.sink, options_.fates,
+                [mailbox = mailbox_, id = news.id] { mailbox->noteProgress(id); });
             entry = std::make_unique<Viewer>(news, std::move(pipeline));
             entry->refinement.onChange(news.arrived);
             if (news.account) {
@@ -232,7 +234,7 @@ void RenderLoop::readNews() {
             }
         }
         Viewer& viewer = *entry;
-        viewer.look = true;
+        lookAt(news.id, viewer);
         viewer.granted = news.granted;
         viewer.leaving = news.left;
         viewer.delivery = news.delivery;
@@ -246,22 +248,14 @@ void RenderLoop::readNews() {
 void RenderLoop::takeNews(const std::stop_token& stop) {
     readNews();
     const TimePoint now = Clock::now();
-    first_ready_at_.reset();
-    for (auto entry = viewers_.begin(); entry != viewers_.end();) {
-        Viewer& viewer = *entry->second;
-        if (viewer.pipeline->takeProgress() || (viewer.ready_at && *viewer.ready_at <= now)) {
-            viewer.look = true;
-        }
-        // Most are as they were: what they cost each time is what bounds how many there can be.
-        if (viewer.look && hasGone(entry->first, viewer, now)) {
-            entry = viewers_.erase(entry);
-            continue;
-        }
-        if (viewer.ready_at) {
-            first_ready_at_ =
-                first_ready_at_ ? std::min(*first_ready_at_, *viewer.ready_at) : viewer.ready_at;
-        }
-        ++entry;
+    while (!ready_at_.empty() && ready_at_.begin()->first <= now) {
+        const SessionId id = ready_at_.begin()->second;
+        ready_at_.erase(ready_at_.begin());
+        viewers_.at(id)->ready_at.reset();
+        lookAt(id, *viewers_.at(id));
+    }
+    for (const SessionId id : std::exchange(looks_, {})) {
+        look(id, now);
     }
     if (watched_ && viewers_.empty()) {
         watched_ = false;
@@ -272,19 +266,33 @@ void RenderLoop::takeNews(const std::stop_token& stop) {
     }
 }
 
-// Whether there is nothing left of it; else tells the scheduler whether it is ready.
-bool RenderLoop::hasGone(SessionId id, Viewer& viewer, TimePoint now) {
+void RenderLoop::lookAt(SessionId id, Viewer& viewer) {
+    if (!std::exchange(viewer.looked_at, true)) {
+        looks_.push_back(id);
+    }
+}
+
+// Lets it go, or tells the scheduler whether it is ready.
+void RenderLoop::look(SessionId id, TimePoint now) {
+    Viewer& viewer = *viewers_.at(id);
+    viewer.looked_at = false;
     chargeEncoding(id, viewer); // the last picture's as well
     if (viewer.waiting && viewer.waitsInVain()) {
         abandon(viewer);
     }
+    if (viewer.ready_at) {
+        ready_at_.erase({*std::exchange(viewer.ready_at, std::nullopt), id});
+    }
     if (viewer.leaving && viewer.idle()) {
         scheduler_.remove(id);
         demand_.remove(id);
-        return true;
+        viewers_.erase(id);
+        return;
     }
     updateReadiness(id, viewer, now);
-    return false;
+    if (viewer.leaving) {
+        lookAt(id, viewer); // nothing is heard of it any more
+    }
 }
 
 // Its pipelines are there now, and the device's clocks and whoever else uses it may be others.
@@ -318,8 +326,6 @@ void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
     const FramePipeline::Losses losses = viewer.pipeline->takeLosses();
     viewer.started -= losses.count;
     viewer.changed = viewer.changed || losses.retry;
-    viewer.look = false;
-    viewer.ready_at.reset();
     using Ready = FrameScheduler::Ready;
     if (viewer.waiting) {
         scheduler_.setReady(id, Ready::kPiece, viewer.waiting->piece_estimate, now);
@@ -336,9 +342,12 @@ void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
     scheduler_.setReady(id, ready ? Ready::kFrame : Ready::kNo, piece, now);
     if (due && has_room && !ready) {
         viewer.ready_at = due;
+        ready_at_.emplace(*due, id);
     }
     // Others take and leave memory for means; and a slot is free without a word.
-    viewer.look = due && (viewer.beginsMean() || (!has_room && viewer.started < viewer.granted));
+    if (due && (viewer.beginsMean() || (!has_room && viewer.started < viewer.granted))) {
+        lookAt(id, viewer);
+    }
 }
 
 // Whether another view may add up samples besides those that do.
@@ -373,7 +382,7 @@ bool RenderLoop::startNext() {
     }
     scheduler_.onStarted(*id);
     Viewer& viewer = *viewers_.at(*id);
-    viewer.look = true;
+    lookAt(*id, viewer);
     if (viewer.waiting || beginFrame(*id, viewer, now)) {
         submitPiece(viewer);
     }
@@ -530,7 +539,7 @@ void RenderLoop::finishOldest() {
     submitted_.pop_front();
     BegunFrame& frame = *piece.frame;
     Viewer& viewer = *viewers_.at(frame.id);
-    viewer.look = true;
+    lookAt(frame.id, viewer);
     auto collected = viewer.source->collect();
     if (!collected && collected.error().code != ErrorCode::kCapacity) {
         throw StartupError(collected.error());

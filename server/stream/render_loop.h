@@ -30,7 +30,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace froxel::stream {
 
@@ -109,7 +112,8 @@ class RenderLoop final : public session::StreamPort {
     void run(const std::stop_token& stop);
     void serve(const std::stop_token& stop);
     void takeNews(const std::stop_token& stop);
-    [[nodiscard]] bool hasGone(session::SessionId id, Viewer& viewer, TimePoint now);
+    void lookAt(session::SessionId id, Viewer& viewer);
+    void look(session::SessionId id, TimePoint now);
     void readNews();
     void priceAgain(const std::stop_token& stop);
     void takeState(Viewer& viewer, const ViewerNews& news);
@@ -150,7 +154,11 @@ class RenderLoop final : public session::StreamPort {
     std::optional<double> priced_at_; // at this pace of the device; none: its first
     FrameScheduler scheduler_;
     DeviceDemand demand_;
-    std::optional<TimePoint> first_ready_at_; // of the viewers
+    // Viewers to whom something has happened since their readiness was told, or may at any time,
+    // and those that become ready by themselves: looking at all of them, twice a frame, would take
+    // longer than the frame.
+    std::vector<session::SessionId> looks_;
+    std::set<std::pair<TimePoint, session::SessionId>> ready_at_;
     std::unique_ptr<FrameSource> source_;
     std::map<session::SessionId, std::unique_ptr<Viewer>> viewers_;
     std::deque<Piece> submitted_;      // oldest first

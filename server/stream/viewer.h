@@ -67,15 +67,14 @@ struct Viewer {
     const bool beside; // single pictures: at the size asked for, or not at all
     session::RefinementSchedule refinement;
     session::SteadyCost frame_cost;
-    render::SampleMean mean;   // of the samples so far of a view that rests
-    bool amid_samples = false; // begun, and not the last one
-    Seconds piece_cost{0};     // the longest of the last frame; 0 before it
-    TimePoint paced_until{};   // by the delivery's interval
-    TimePoint shown_at{};      // of the frame begun last
-    TimePoint ask_again{};     // nothing can begin before; see FrameWork::piece_count
-    // Something has happened to it since its readiness was told, or may at any time.
-    bool look = true;
-    std::optional<TimePoint> ready_at;        // when it becomes ready if nothing happens before
+    render::SampleMean mean;           // of the samples so far of a view that rests
+    bool amid_samples = false;         // begun, and not the last one
+    Seconds piece_cost{0};             // the longest of the last frame; 0 before it
+    TimePoint paced_until{};           // by the delivery's interval
+    TimePoint shown_at{};              // of the frame begun last
+    TimePoint ask_again{};             // nothing can begin before; see FrameWork::piece_count
+    bool looked_at = false;            // with the others at the next look
+    std::optional<TimePoint> ready_at; // when it becomes ready if nothing happens before
     std::optional<TimePoint> compiling_since; // shaders that the next picture needs
     bool told_compiling = false;
     bool changed = true;

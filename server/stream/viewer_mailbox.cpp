@@ -65,6 +65,15 @@ void ViewerMailbox::leave(session::SessionId id) {
     change(id, [](ViewerNews& news) { news.left = true; });
 }
 
+void ViewerMailbox::noteProgress(session::SessionId id) {
+    const std::lock_guard lock(mutex_);
+    if (const auto slot = slots_.find(id); slot != slots_.end()) {
+        publish(id, slot->second);
+    }
+    awake_ = true;
+    wake_.notify_one();
+}
+
 void ViewerMailbox::wake() {
     const std::lock_guard lock(mutex_);
     awake_ = true;

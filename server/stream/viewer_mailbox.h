@@ -41,6 +41,8 @@ class ViewerMailbox {
     void grant(session::SessionId id, uint64_t frame_total);
     void setDelivery(session::SessionId id, const session::Delivery& delivery);
     void leave(session::SessionId id);
+    // A picture of its has left. There may be none any more.
+    void noteProgress(session::SessionId id);
     // Makes wait() return.
     void wake();
     // join() gives this error from now on.
