@@ -36,7 +36,7 @@ struct ServeOptions {
     // That active sessions must keep when another one joins; absent: by the device's kind.
     std::optional<double> min_rate_hz;
     double frame_limit_s = 1; // of the device's time, that one picture may take by its estimate
-    stream::JpegPlace jpeg_encoder = stream::JpegPlace::kHost;
+    stream::JpegPlace jpeg_encoder = stream::JpegPlace::kAuto;
     double resume_grace_s = 10; // how long a lost connection's session waits for it; 0: not at all
     // net::LobbyRules; absent: half of sessions_max.
     std::optional<uint32_t> sessions_per_address;
