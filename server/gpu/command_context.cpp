@@ -14,23 +14,32 @@ vk::raii::Semaphore makeTimeline(const Device& device) {
 
 } // namespace
 
-Timeline::Timeline(const Device& device)
-    : device_(device), pool_(device.handle().createCommandPool(
-                           {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
-                            .queueFamilyIndex = device.queueFamily()})),
+Timeline::Timeline(const Device& device, const Queue& queue)
+    : device_(device), queue_(queue),
+      pool_(device.handle().createCommandPool(
+          {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+           .queueFamilyIndex = queue.family})),
       semaphore_(makeTimeline(device)) {
     device.setName(*semaphore_, "timeline");
 }
 
-uint64_t Timeline::submit(const vk::raii::CommandBuffer& cmd) {
+uint64_t Timeline::submit(const vk::raii::CommandBuffer& cmd, const TimelineMoment& after) {
     const vk::CommandBufferSubmitInfo buffer{.commandBuffer = *cmd};
     const vk::SemaphoreSubmitInfo signal{.semaphore = *semaphore_,
                                          .value = last_ + 1,
                                          .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
-    device_.queue().submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1,
-                                            .pCommandBufferInfos = &buffer,
-                                            .signalSemaphoreInfoCount = 1,
-                                            .pSignalSemaphoreInfos = &signal});
+    vk::SemaphoreSubmitInfo wait{.value = after.value,
+                                 .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
+    vk::SubmitInfo2 submission{.commandBufferInfoCount = 1,
+                               .pCommandBufferInfos = &buffer,
+                               .signalSemaphoreInfoCount = 1,
+                               .pSignalSemaphoreInfos = &signal};
+    if (after.timeline != nullptr) {
+        wait.semaphore = *after.timeline->semaphore_;
+        submission.waitSemaphoreInfoCount = 1;
+        submission.pWaitSemaphoreInfos = &wait;
+    }
+    queue_.handle.submit2(submission);
     return ++last_;
 }
 

@@ -1,4 +1,4 @@
-// Recording and submitting on the device's one queue, ordered by one timeline semaphore.
+// Recording and submitting on one of the device's queues, ordered by one timeline semaphore.
 #pragma once
 
 #include "core/error.h"
@@ -9,13 +9,23 @@
 
 namespace froxel::gpu {
 
+class Timeline;
+
+// Of one timeline; null: none.
+struct TimelineMoment {
+    const Timeline* timeline = nullptr;
+    uint64_t value = 0;
+};
+
 // One thread. Every submission gets the next value of the timeline.
 class Timeline {
   public:
-    explicit Timeline(const Device& device);
+    explicit Timeline(const Device& device) : Timeline(device, device.queue()) {}
+    Timeline(const Device& device, const Queue& queue);
 
+    // `after`: of another queue, which the commands wait for, and see what was written before.
     // Throws vk::DeviceLostError.
-    uint64_t submit(const vk::raii::CommandBuffer& cmd);
+    uint64_t submit(const vk::raii::CommandBuffer& cmd, const TimelineMoment& after = {});
     // Waits until `value` is reached. Errors: kDevice when the device is lost or does not answer.
     [[nodiscard]] Result<void> wait(uint64_t value) const;
     // What the next submission will get, and up to where all is finished.
@@ -30,6 +40,7 @@ class Timeline {
 
   private:
     const Device& device_;
+    const Queue& queue_;
     vk::raii::CommandPool pool_;
     vk::raii::Semaphore semaphore_;
     uint64_t last_ = 0;

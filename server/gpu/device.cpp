@@ -80,6 +80,19 @@ std::optional<uint32_t> findQueueFamily(const vk::raii::PhysicalDevice& physical
     return std::nullopt;
 }
 
+// For copies alone: what it is given runs on hardware of its own.
+std::optional<uint32_t> findCopyFamily(const vk::raii::PhysicalDevice& physical) {
+    const auto families = physical.getQueueFamilyProperties();
+    for (uint32_t i = 0; i < families.size(); ++i) {
+        const auto others = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
+        if (families[i].queueFlags & vk::QueueFlagBits::eTransfer &&
+            !(families[i].queueFlags & others)) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
 // Empty when the device can be used, else why not.
 std::string unusable(const vk::raii::PhysicalDevice& physical) {
     if (physical.getProperties().apiVersion < VK_API_VERSION_1_3) {
@@ -219,7 +232,7 @@ Features featuresFor(const DeviceTraits& traits) {
 
 Device::Device(const DeviceOptions& options) try : instance_(options.validation) {
     physical_ = choose(instance_.handle(), options.choice);
-    queue_family_ = *findQueueFamily(physical_);
+    queue_.family = *findQueueFamily(physical_);
     traits_ = readTraits(physical_, options.subgroups);
     limits_ = physical_.getProperties().limits;
     memory_ = physical_.getMemoryProperties();
@@ -249,16 +262,26 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
     const std::array extensions = {VK_EXT_ROBUSTNESS_2_EXTENSION_NAME};
 
     const float priority = 1.0F;
-    const vk::DeviceQueueCreateInfo queue{
-        .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
+    std::vector queues = {vk::DeviceQueueCreateInfo{
+        .queueFamilyIndex = queue_.family, .queueCount = 1, .pQueuePriorities = &priority}};
+    const auto copy_family =
+        options.copy_queue == CopyQueue::kOwn ? findCopyFamily(physical_) : std::nullopt;
+    if (copy_family) {
+        queues.push_back(queues.front());
+        queues.back().queueFamilyIndex = *copy_family;
+    }
     device_ = vk::raii::Device(
         physical_,
         vk::DeviceCreateInfo{.pNext = &enabled.get<vk::PhysicalDeviceFeatures2>(),
-                             .queueCreateInfoCount = 1,
-                             .pQueueCreateInfos = &queue,
+                             .queueCreateInfoCount = static_cast<uint32_t>(queues.size()),
+                             .pQueueCreateInfos = queues.data(),
                              .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
                              .ppEnabledExtensionNames = extensions.data()});
-    queue_ = device_.getQueue(queue_family_, 0);
+    queue_.handle = device_.getQueue(queue_.family, 0);
+    if (copy_family || options.copy_queue == CopyQueue::kSame) {
+        const uint32_t family = copy_family.value_or(queue_.family);
+        copy_queue_ = Queue{device_.getQueue(family, 0), family};
+    }
     loadPipelineCache(options.pipeline_cache);
     spdlog::info("device name=\"{}\" driver=\"{}\" kind={} subgroup={}", traits_.name,
                  traits_.driver, traits_.is_cpu ? "cpu" : "gpu", traits_.subgroup_size);

@@ -1,4 +1,4 @@
-// The chosen Vulkan device, its one queue and what it can do.
+// The chosen Vulkan device, its queues and what it can do.
 #pragma once
 
 #include "gpu/device_options.h"
@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -34,6 +35,11 @@ struct DeviceTraits {
     uint32_t most_samplers = 0; // and those of the images with samplers of their own
 };
 
+struct Queue {
+    vk::raii::Queue handle{nullptr};
+    uint32_t family = 0;
+};
+
 class Device {
   public:
     // Throws StartupError(kDevice) naming what is missing.
@@ -44,8 +50,10 @@ class Device {
 
     [[nodiscard]] const vk::raii::Device& handle() const { return device_; }
     [[nodiscard]] const vk::raii::PhysicalDevice& physical() const { return physical_; }
-    [[nodiscard]] const vk::raii::Queue& queue() const { return queue_; }
-    [[nodiscard]] uint32_t queueFamily() const { return queue_family_; }
+    // Draws, computes and copies.
+    [[nodiscard]] const Queue& queue() const { return queue_; }
+    // Copies beside it; null: there is none.
+    [[nodiscard]] const Queue* copyQueue() const { return copy_queue_ ? &*copy_queue_ : nullptr; }
     [[nodiscard]] const DeviceTraits& traits() const { return traits_; }
     [[nodiscard]] const vk::PhysicalDeviceLimits& limits() const { return limits_; }
     [[nodiscard]] const ValidationLog& validationLog() const { return instance_.validationLog(); }
@@ -73,13 +81,13 @@ class Device {
     Instance instance_;
     vk::raii::PhysicalDevice physical_{nullptr};
     vk::raii::Device device_{nullptr};
-    vk::raii::Queue queue_{nullptr};
+    Queue queue_;
+    std::optional<Queue> copy_queue_;
     vk::raii::PipelineCache cache_{nullptr};
     PipelineCacheKey cache_key_;
     std::filesystem::path cache_file_; // empty: none
     uint64_t cache_hash_ = 0;          // of what the file holds
     std::shared_ptr<MemoryLedger> ledger_ = std::make_shared<MemoryLedger>();
-    uint32_t queue_family_ = 0;
     DeviceTraits traits_;
     vk::PhysicalDeviceLimits limits_;
     vk::PhysicalDeviceMemoryProperties memory_;

@@ -19,6 +19,13 @@ struct PipelineCacheOptions {
     uint64_t build = 0;           // hash of the build's shaders
 };
 
+// Where what the host reads is copied beside what is drawn.
+enum class CopyQueue : uint8_t {
+    kOwn,  // a queue for copies alone, where the device has one; else kNone
+    kNone, // nowhere: in the frame's own commands
+    kSame, // for tests: the one queue, as if it were another
+};
+
 struct DeviceOptions {
     DeviceChoice choice = DeviceChoice::kAuto;
     PipelineCacheOptions pipeline_cache;
@@ -28,6 +35,7 @@ struct DeviceOptions {
     bool descriptor_indexing = true;
     bool visibility = true; // visibility passes
     bool int64_atomics = true;
+    CopyQueue copy_queue = CopyQueue::kOwn;
     uint32_t most_textures = ~0U; // a shader reads; less: as on a device that allows less
 };
 

@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <optional>
 
@@ -152,10 +153,21 @@ Buffer MemoryArena::makeBuffer(vk::DeviceSize size_bytes,
     Buffer buffer;
     buffer.size_bytes = std::max(size_bytes, kLeastBuffer);
     const bool texels = static_cast<bool>(usage & vk::BufferUsageFlagBits::eUniformTexelBuffer);
-    buffer.handle = device_.handle().createBuffer(
-        {.size =
-             texels ? neverPowerOfTwo(device_, buffer.size_bytes, kLeastBuffer) : buffer.size_bytes,
-         .usage = usage});
+    vk::BufferCreateInfo info{.size =
+                                  texels ? neverPowerOfTwo(device_, buffer.size_bytes, kLeastBuffer)
+                                         : buffer.size_bytes,
+                              .usage = usage};
+    // What may be copied to the host, and to where.
+    const Queue* copies = device_.copyQueue();
+    const std::array families = {device_.queue().family,
+                                 copies != nullptr ? copies->family : device_.queue().family};
+    const bool is_copied = static_cast<bool>(usage & vk::BufferUsageFlagBits::eTransferSrc);
+    if (families[0] != families[1] && (is_copied || use == MemoryUse::kReadback)) {
+        info.sharingMode = vk::SharingMode::eConcurrent;
+        info.queueFamilyIndexCount = static_cast<uint32_t>(families.size());
+        info.pQueueFamilyIndices = families.data();
+    }
+    buffer.handle = device_.handle().createBuffer(info);
     const Place at = place(buffer.handle.getMemoryRequirements(), use, name);
     buffer.handle.bindMemory(at.memory, at.offset);
     buffer.mapped = at.mapped;

@@ -14,7 +14,11 @@
 namespace froxel::render {
 
 DeviceResources::DeviceResources(gpu::Device& device_in, const MemoryLimits& limits)
-    : device(device_in), timeline(device_in), memory(limits),
+    : device(device_in), timeline(device_in),
+      copies(device_in.copyQueue() != nullptr
+                 ? std::optional<gpu::Timeline>(std::in_place, device_in, *device_in.copyQueue())
+                 : std::nullopt),
+      memory(limits),
       light_assigner(std::max(1U, std::thread::hardware_concurrency()), kHostListEntries),
       pipelines(device_in, timeline, variants),
       unit_costs(device_in.traits().is_cpu ? kCpuUnitCosts : kGpuUnitCosts) {}

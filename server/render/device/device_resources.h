@@ -32,6 +32,7 @@ class DeviceResources {
 
     gpu::Device& device;
     gpu::Timeline timeline;
+    std::optional<gpu::Timeline> copies; // beside it; none: the device has no queue for them
     MemoryBudget memory;
     cluster::LightAssigner light_assigner;
     VariantMaker variants;

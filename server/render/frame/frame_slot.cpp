@@ -99,11 +99,12 @@ Readback::Readback(const gpu::Device& device, const ReadbackBytes& its_bytes)
     }
 }
 
-FrameSlot::FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, Pipelines& pipelines)
-    : cmd(timeline.makeCommandBuffer()), pieces(timeline, cmd), timestamps(device), upload(device),
-      pool(makePool(device)) {
-    frame_set = gpu::makeSet(device, pool, pipelines.frameLayout());
-    screen_set = gpu::makeSet(device, pool, pipelines.screenLayout());
+FrameSlot::FrameSlot(DeviceResources& shared)
+    : cmd(shared.timeline.makeCommandBuffer()), pieces(shared.timeline, cmd),
+      host_copy(shared.copies ? &*shared.copies : nullptr), timestamps(shared.device),
+      upload(shared.device), pool(makePool(shared.device)) {
+    frame_set = gpu::makeSet(shared.device, pool, shared.pipelines.frameLayout());
+    screen_set = gpu::makeSet(shared.device, pool, shared.pipelines.screenLayout());
 }
 
 void FrameSlot::makeReadback(const gpu::Device& device, const ReadbackBytes& bytes) {

@@ -5,9 +5,11 @@
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
 #include "gpu/timestamps.h"
+#include "render/device/device_resources.h"
 #include "render/frame/frame_blocks.h"
 #include "render/frame/frame_inputs.h"
 #include "render/frame/frame_pieces.h"
+#include "render/frame/host_copy.h"
 #include "render/frame/step.h"
 #include "render/frame/step_targets.h"
 #include "render/frame/view_targets.h"
@@ -90,7 +92,7 @@ struct UploadOffsets {
 };
 
 struct FrameSlot {
-    FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, Pipelines& pipelines);
+    explicit FrameSlot(DeviceResources& shared);
 
     // Whether the frame last recorded has pieces that are still to be submitted.
     [[nodiscard]] bool unfinished() const {
@@ -111,6 +113,7 @@ struct FrameSlot {
 
     vk::raii::CommandBuffer cmd; // of the piece that is recorded
     FramePieces pieces;
+    HostCopy host_copy; // after them
     gpu::Timestamps timestamps;
     FrameUpload upload;
     std::shared_ptr<ViewTargets> targets;

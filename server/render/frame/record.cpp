@@ -23,6 +23,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_sh
     FrameSlot& slot = frame.slot;
     frame.pieces.begin(piece_limit, piece_share);
     slot.timestamps.reset();
+    slot.host_copy.clear();
     recordFreshTargets(slot);
     if (frame.spoil_scratch) {
         recordSpoil(frame);

@@ -89,11 +89,12 @@ class Planes final : public Step {
         sizes_ = PlaneSizes(inputs.size.shown, sampling_);
         return {};
     }
-    // Converted, and copied to the host.
+    // Converted, and copied to the host, if that is not beside the frame.
     [[nodiscard]] Seconds timeOf(const FrameCosts& costs) const {
         const auto& size = costs.load().size.shown;
+        const double copied = scene_.shared.copies ? 0 : costs.unit().copied_pixel;
         return Seconds(static_cast<double>(size.width_px) * size.height_px *
-                       (costs.unit().screen_pixel + costs.unit().copied_pixel));
+                       (costs.unit().screen_pixel + copied));
     }
 
     SceneResources& scene_;
@@ -127,6 +128,10 @@ void Planes::record(const FrameContext& frame) const {
                                          sizes_.picture);
     const uint32_t words = sizes_.lumaWords() + sizes_.chromaWords();
     cmd.dispatch((words + io::kPlanesGroup - 1) / io::kPlanesGroup, 1, 1);
+    if (frame.slot.host_copy.isBeside()) {
+        frame.slot.host_copy.record(targets_->planes, frame.slot.readback->buffer);
+        return;
+    }
     copyAfterCompute(cmd);
     cmd.copyBuffer(*targets_->planes.handle, *frame.slot.readback->buffer.handle,
                    vk::BufferCopy{.size = sizes_.bytes()});

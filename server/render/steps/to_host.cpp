@@ -26,15 +26,22 @@ RegionCost copyCost(Output output) {
 
 class PixelReadback final : public Step {
   public:
-    explicit PixelReadback(SceneResources& /*scene*/) {}
+    explicit PixelReadback(SceneResources& scene) : scene_(scene) {}
 
+    // Beside the frame it takes nothing of the device's time.
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kReadback, timeOf(costs)});
+        if (!scene_.shared.copies) {
+            passes.push_back({pass::kReadback, timeOf(costs)});
+        }
     }
     void record(const FrameContext& frame) const override {
+        const auto& pixels = frame.slot.targets->pixels;
+        if (frame.slot.host_copy.isBeside()) {
+            frame.slot.host_copy.record(pixels, frame.slot.readback->buffer);
+            return;
+        }
         frame.pieces.add(timeOf(frame.costs));
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kReadback);
-        const auto& pixels = frame.slot.targets->pixels;
         frame.slot.cmd.copyBuffer(*pixels.handle, *frame.slot.readback->buffer.handle,
                                   vk::BufferCopy{.size = pixels.size_bytes});
     }
@@ -45,6 +52,8 @@ class PixelReadback final : public Step {
         return Seconds(static_cast<double>(size.width_px) * size.height_px *
                        costs.unit().copied_pixel);
     }
+
+    SceneResources& scene_;
 };
 
 class RadianceReadback final : public Step {

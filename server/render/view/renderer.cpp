@@ -159,15 +159,14 @@ struct ViewRenderer::Impl {
     Impl(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work)
         : scene(scene_in), maker(scene_in, limits, work) {
         for (uint32_t i = 0; i < kReadbackSlots; ++i) {
-            slots.push_back(std::make_unique<FrameSlot>(scene.shared.device, scene.shared.timeline,
-                                                        scene.shared.pipelines));
+            slots.push_back(std::make_unique<FrameSlot>(scene.shared));
         }
     }
     ~Impl() {
         for (const FrameSlot* slot : pending) {
             // A lost device has nothing left to wait for.
             if (!slot->done_values.empty()) {
-                (void)scene.shared.timeline.wait(slot->done_values.back());
+                (void)wait(*slot, slot->done_values.size() - 1);
             }
         }
     }
@@ -180,7 +179,9 @@ struct ViewRenderer::Impl {
         }
         return nullptr;
     }
-    void submitPiece(FrameSlot& slot) const;
+    void submitPiece(FrameSlot& slot);
+    // Until the device is done with a piece that was submitted, and with what follows the last one.
+    [[nodiscard]] Result<void> wait(const FrameSlot& slot, size_t piece) const;
     // Draws a completed frame again until its lists are whole. Throws vk::SystemError.
     [[nodiscard]] Result<void> redraw(FrameSlot& slot);
 
@@ -188,11 +189,21 @@ struct ViewRenderer::Impl {
     ViewFrames maker;
     std::vector<std::unique_ptr<FrameSlot>> slots;
     std::deque<FrameSlot*> pending; // begun, oldest first
+    gpu::TimelineMoment copied;     // the newest copy beside frames, of targets that they write
 };
 
-void ViewRenderer::Impl::submitPiece(FrameSlot& slot) const {
+void ViewRenderer::Impl::submitPiece(FrameSlot& slot) {
+    gpu::Timeline& timeline = scene.shared.timeline;
     const auto next = static_cast<uint32_t>(slot.done_values.size());
-    slot.done_values.push_back(scene.shared.timeline.submit(slot.pieces.piece(next)));
+    slot.done_values.push_back(timeline.submit(slot.pieces.piece(next), copied));
+    if (next + 1 == slot.pieces.count() && slot.host_copy.recorded()) {
+        copied = slot.host_copy.submit({&timeline, slot.done_values.back()});
+    }
+}
+
+Result<void> ViewRenderer::Impl::wait(const FrameSlot& slot, size_t piece) const {
+    auto done = scene.shared.timeline.wait(slot.done_values[piece]);
+    return done && piece + 1 == slot.pieces.count() ? slot.host_copy.wait() : done;
 }
 
 // The targets are the view's: frames submitted since must be drawn again after this one, so that
@@ -214,7 +225,7 @@ Result<void> ViewRenderer::Impl::redraw(FrameSlot& slot) {
         while (slot.unfinished()) {
             submitPiece(slot);
         }
-        if (const auto done = scene.shared.timeline.wait(slot.done_values.back()); !done) {
+        if (const auto done = wait(slot, slot.done_values.size() - 1); !done) {
             return done.error();
         }
         ++count;
@@ -311,8 +322,7 @@ Result<PieceResult> ViewRenderer::collectPiece() {
     FROXEL_ASSERT(inFlight() > 0, "collectPiece needs a submitted piece");
     FrameSlot& slot = *impl_->pending.front();
     FROXEL_ASSERT(slot.waited_count < slot.done_values.size(), "a piece is on the device");
-    if (const auto done = impl_->scene.shared.timeline.wait(slot.done_values[slot.waited_count]);
-        !done) {
+    if (const auto done = impl_->wait(slot, slot.waited_count); !done) {
         return done.error();
     }
     ++slot.waited_count;
@@ -352,7 +362,7 @@ Result<RenderedFrame> ViewRenderer::collect() {
     FROXEL_ASSERT(!impl_->pending.empty(), "collect needs a submitted frame");
     FrameSlot& slot = *impl_->pending.front();
     FROXEL_ASSERT(!slot.unfinished(), "all of the frame was submitted");
-    if (const auto done = impl_->scene.shared.timeline.wait(slot.done_values.back()); !done) {
+    if (const auto done = impl_->wait(slot, slot.done_values.size() - 1); !done) {
         return done.error();
     }
     impl_->pending.pop_front();
