@@ -389,6 +389,16 @@ bool RenderLoop::startNext() {
     return true;
 }
 
+// A viewer's first frames make what it keeps, such as targets and readback slots, while a device
+// that rested may be slow. Where hundreds share it, a debt of a few hundredths of a second would be
+// a wait of seconds.
+Seconds RenderLoop::chargeFor(const Viewer& viewer, const BegunFrame& frame, Seconds cost) const {
+    constexpr uint64_t kFirstFrames = 3; // as many as a view has slots
+    const bool is_first = !viewer.beside && frame.number <= kFirstFrames;
+    const Seconds usual = std::max(frame.estimate, typical_cost_.value().value_or(Seconds(0)));
+    return is_first && usual > Seconds(0) ? std::min(cost, usual) : cost;
+}
+
 bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
     const std::shared_ptr<BegunFrame> frame = viewer.build(id, now);
     const auto work = beginWork(viewer, *frame);
@@ -397,7 +407,7 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
     // wait for its picture until everybody has had as much.
     const bool begins_nothing = work && !work->half_built && work->piece_count == 0;
     if (!begins_nothing) {
-        scheduler_.charge(id, host);
+        scheduler_.charge(id, chargeFor(viewer, *frame, host));
     }
     options_.on_begun(host);
     warnOfLongStep("begin", host, {}, id, frame->state);
@@ -547,7 +557,7 @@ void RenderLoop::finishOldest() {
     const Seconds cost = spentSince(piece.submitted);
     options_.on_piece(cost);
     warnOfLongStep("piece", cost, frame.piece_estimate, frame.id, frame.state);
-    scheduler_.onFinished(frame.id, cost - piece.charged, accounted_);
+    scheduler_.onFinished(frame.id, chargeFor(viewer, frame, cost) - piece.charged, accounted_);
     frame.cost += cost;
     frame.held += accounted_ - std::max(piece.submitted, std::exchange(collected_, accounted_));
     frame.longest_piece = std::max(frame.longest_piece, cost);

@@ -130,6 +130,8 @@ class RenderLoop final : public session::StreamPort {
     [[nodiscard]] bool deviceTakesMore() const;
     [[nodiscard]] Seconds spentSince(TimePoint begin);
     [[nodiscard]] bool startNext();
+    [[nodiscard]] Seconds
+    chargeFor(const Viewer& viewer, const BegunFrame& frame, Seconds cost) const;
     [[nodiscard]] bool beginFrame(session::SessionId id, Viewer& viewer, TimePoint now);
     [[nodiscard]] Result<FrameWork> beginWork(Viewer& viewer, const BegunFrame& frame);
     static void noteEstimate(Viewer& viewer, BegunFrame& frame, const FrameWork& work);

@@ -95,7 +95,7 @@ std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) 
         affordable.forgetRoom();
     }
     if (!built) {
-        built = std::make_shared<BegunFrame>(BegunFrame{id, {}, state, now});
+        built = std::make_shared<BegunFrame>(BegunFrame{id, {}, state, now, begun_count + 1});
         session::FrameRecord& record = built->record;
         record.applied = state.applied;
         const auto due = moves() ? std::nullopt : refineNext();
@@ -129,6 +129,7 @@ void Viewer::noteBegun(const BegunFrame& frame, TimePoint now) {
     shown_at = frame.started;
     ++under_way;
     ++started;
+    ++begun_count;
 }
 
 bool Viewer::hasRoom() const {

@@ -25,6 +25,7 @@ struct BegunFrame {
     session::FrameRecord record;
     session::SessionState state;
     TimePoint started{};
+    uint64_t number = 1; // of those of its viewer that were begun, or would be
     uint32_t piece_count = 1;
     uint32_t submitted_count = 0;
     uint32_t on_device = 0;    // pieces
@@ -57,7 +58,8 @@ struct Viewer {
     std::shared_ptr<BegunFrame> built;              // half: see FrameWork::half_built
     std::shared_ptr<BegunFrame> waiting;            // begun last, while pieces of it wait
     uint64_t last_frame_id = 0;
-    uint64_t started = 0; // frames, without those lost on the way
+    uint64_t begun_count = 0; // frames
+    uint64_t started = 0;     // frames, without those lost on the way
     uint64_t granted = 0;
     uint32_t under_way = 0; // frames on the device or waiting for it
     session::Delivery delivery;

@@ -238,6 +238,25 @@ TEST_F(RenderLoopTest, PausedBeforeItsFirstPicture_TakesNoTimeFromOthers) {
 }
 
 // Two viewers keep two frames on the device: each waits for the other's, and neither costs that.
+// It made what the viewer keeps, which others did when they came.
+TEST_F(RenderLoopTest, FirstFrameThatTookLong_IsNotWaitedForUntilOthersHadAsMuch) {
+    device_->estimate = std::chrono::milliseconds(1);
+    device_->frame_time = std::chrono::milliseconds(1);
+    start();
+    const auto other = makeSink();
+    const auto other_id = join(other, moving(), 20);
+    ASSERT_TRUE(other->waitForFrames(20));
+    device_->frame_time = std::chrono::milliseconds(600);
+    const auto first = makeSink();
+    const auto first_id = join(first, moving(), 1);
+    ASSERT_TRUE(first->waitForFrames(1));
+    device_->frame_time = std::chrono::milliseconds(1);
+    loop_->grant(other_id, kPlenty);
+    loop_->grant(first_id, 2);
+    ASSERT_TRUE(first->waitForFrames(2));
+    EXPECT_LT(other->frames().size(), 220U);
+}
+
 TEST_F(RenderLoopTest, FramesThatWaitForOthers_CostWhatTheyHeldTheDevice) {
     device_->depth = 2;
     device_->frame_time = 10ms;
