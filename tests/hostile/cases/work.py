@@ -156,6 +156,20 @@ async def sizes_storm(arena):
 
 
 @case(seconds=SECONDS, needs=("frame",))
+async def encodings_storm(arena):
+    """Another size, quality, chroma and codec with every picture, so that encoders are made anew wherever they are."""
+    async with arena.viewer(codecs=["CODEC_VP9"]) as viewer:
+        for step in itertools.count():
+            await viewer.say(setSize={"width": 320 + step * 13 % 320, "height": 180 + step * 7 % 180})
+            await viewer.say(setEncoding={"codec": ("CODEC_JPEG", "CODEC_VP9")[step % 2],
+                                          "chroma": ("CHROMA_420", "CHROMA_444")[step // 2 % 2],
+                                          "quality": 1 + step * 37 % 100})
+            while (heard := await viewer.hear())[0] != "frame":
+                pass
+            await viewer.acknowledge(heard[1])
+
+
+@case(seconds=SECONDS, needs=("frame",))
 async def lights_anew(arena):
     """A million lights, then few, and so on, in a tiny picture: what the host makes of them is made anew."""
     async with arena.viewer() as viewer:
