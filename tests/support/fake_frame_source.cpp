@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -21,9 +20,9 @@ void FakeDevice::passGate() {
     changed_.wait(lock, [this] { return open_; });
 }
 
-void FakeDevice::passTime(uint32_t pieces) {
+void FakeDevice::passTime(Seconds time) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, Seconds(frame_time.load()) / pieces, [] { return false; });
+    changed_.wait_for(lock, time, [] { return false; });
 }
 
 void FakeDevice::addDone(settings::Size size) {
@@ -120,7 +119,7 @@ class FakeView final : public stream::ViewSource {
             return Error{ErrorCode::kUnsupported, "the fake device has no compute stage"};
         }
         if (device_->unready_count > 0) {
-            std::this_thread::sleep_for(device_->unready_time.load());
+            device_->passTime(device_->unready_time.load());
             --device_->unready_count;
             return FrameWork{.piece_count = 0};
         }
@@ -164,7 +163,7 @@ class FakeView final : public stream::ViewSource {
         ++device_->collect_count;
         Frame& frame = frames_.front();
         device_->passGate();
-        device_->passTime(frame.piece_count);
+        device_->passTime(Seconds(device_->frame_time.load()) / frame.piece_count);
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
         }

@@ -57,8 +57,8 @@ class FakeDevice {
     // While closed, collect() waits: the device is busy.
     void setGate(bool open);
     void passGate();
-    // Takes a piece's part of frame_time.
-    void passTime(uint32_t pieces);
+    // Takes that long.
+    void passTime(Seconds time);
     // The sizes of whole frames, in the order in which they were done.
     void addDone(settings::Size size);
     [[nodiscard]] std::vector<settings::Size> done();
