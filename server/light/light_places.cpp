@@ -45,7 +45,7 @@ void eachTriangle(const scene::Scene& scene,
                   const Wanted& wanted,
                   uint64_t stride,
                   const Visit& visit) {
-    uint64_t at = 0;
+    uint64_t skip = 0; // triangles, to the next that is looked at
     eachPrimitive(scene, [&](const auto& instance, const scene::Primitive& primitive) {
         const bool has_material = primitive.material < scene.materials.size();
         const bool unlit = has_material && scene.materials[primitive.material].unlit;
@@ -62,19 +62,19 @@ void eachTriangle(const scene::Scene& scene,
                                           : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
             return glm::dvec3(placed * glm::dvec4(object, 1));
         };
-        for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-            if (at++ % stride != 0) {
-                continue;
-            }
-            const glm::dvec3 first = corner(i);
-            const glm::dvec3 a = corner(i + 1) - first;
-            const glm::dvec3 b = corner(i + 2) - first;
+        const uint64_t count = primitive.indices.size() / 3;
+        uint64_t i = skip;
+        for (; i < count; i += stride) {
+            const glm::dvec3 first = corner(3 * i);
+            const glm::dvec3 a = corner(3 * i + 1) - first;
+            const glm::dvec3 b = corner(3 * i + 2) - first;
             const glm::dvec3 cross = side * glm::cross(a, b);
             const double twice = glm::length(cross);
             if (twice > 0 && std::isfinite(twice) && cross.y >= wanted.least_up * twice) {
                 visit(Triangle{first, a, b, cross / twice, twice / 2, two_sided});
             }
         }
+        skip = i - count;
     });
 }
 
