@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -68,6 +69,12 @@ using Corners = std::array<uint32_t, 3>;
 // Whether the primitive has ExtendedVertex data.
 [[nodiscard]] bool isExtended(const scene::Primitive& primitive);
 
-[[nodiscard]] PackedGeometry packGeometry(const scene::Scene& scene);
+// Meshlets of a primitive of more triangles than that are made of so many at once, of neighbours:
+// on several threads, and their bounds are others than those of all at once would be. The same
+// scene gives the same result.
+inline constexpr size_t kMostTrianglesAtOnce = 500'000;
+
+[[nodiscard]] PackedGeometry packGeometry(const scene::Scene& scene,
+                                          size_t most_at_once = kMostTrianglesAtOnce);
 
 } // namespace froxel::render

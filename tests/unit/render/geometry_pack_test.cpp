@@ -66,6 +66,44 @@ TEST(GeometryPack, Meshlets_CoverEveryTriangleOnceWithItsWinding) {
     EXPECT_GT(packed.meshlets.size(), 1U);
 }
 
+TEST(GeometryPack, ManyTriangles_AreCutIntoPartsThatCoverEachOnce) {
+    scene::Scene scene;
+    scene.meshes.push_back({"fans", {fan(40, false), fan(900, false), fan(41, true)}});
+    const auto packed = packGeometry(scene, 100);
+    const auto again = packGeometry(scene, 100);
+    EXPECT_EQ(packed.indices, again.indices);
+    uint32_t next_meshlet = 0;
+    for (const size_t p : {2U, 0U, 1U}) { // in the order of vertices
+        SCOPED_TRACE(p);
+        const auto& primitive = packed.meshes[0][p];
+        const auto& source = scene.meshes[0].primitives[p];
+        const auto indices =
+            std::span(packed.indices).subspan(primitive.first_index, primitive.index_count);
+        EXPECT_EQ(sortedTriangles(indices), sortedTriangles(source.indices));
+        EXPECT_EQ(primitive.first_meshlet, next_meshlet);
+        next_meshlet += primitive.meshlet_count;
+        EXPECT_GE(primitive.meshlet_count, source.indices.size() / 300);
+        uint32_t next = primitive.first_index;
+        for (const auto& meshlet :
+             std::span(packed.meshlets).subspan(primitive.first_meshlet, primitive.meshlet_count)) {
+            EXPECT_EQ(meshlet.first_index, next);
+            EXPECT_LE(meshlet.index_count, 300U);
+            next += meshlet.index_count;
+            for (uint32_t i = 0; i < meshlet.index_count; ++i) {
+                const auto& at = source.positions[packed.indices[meshlet.first_index + i]];
+                EXPECT_LE(glm::distance(at, meshlet.center), meshlet.radius * 1.0001F + 1e-6F);
+            }
+        }
+        EXPECT_EQ(next, primitive.first_index + primitive.index_count);
+        for (size_t i = 0; i < source.positions.size(); ++i) {
+            const size_t at = static_cast<size_t>(primitive.vertex_offset) + i;
+            EXPECT_EQ(packed.positions[at], source.positions[i]);
+            EXPECT_EQ(packed.surfaces[at].normal, source.normals[i]);
+        }
+    }
+    EXPECT_EQ(next_meshlet, packed.meshlets.size());
+}
+
 TEST(GeometryPack, ExtendedPrimitives_ComeFirst_SoThatStreamsShareOffsets) {
     scene::Scene scene;
     scene.meshes.push_back({"plain", {fan(5, false)}});
