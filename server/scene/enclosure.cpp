@@ -1,5 +1,7 @@
 #include "scene/enclosure.h"
 
+#include "core/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,6 +25,8 @@ constexpr size_t kSkyHits = kRayCount / 3;
 // Triangles that rays are held against, of all together: a second or two. Things whose boxes all
 // lie over each other take more; what was met until then counts.
 constexpr uint64_t kMostTests = uint64_t{1} << 27U;
+// Starting a thread costs about as much.
+constexpr size_t kTestsPerThread = 20'000;
 
 struct Ray {
     glm::dvec3 from;
@@ -123,21 +127,33 @@ std::vector<std::optional<RayHit>> castRays(const Scene& scene,
             if (material.alpha_mode == AlphaMode::kBlend || primitive.bounds.empty()) {
                 continue;
             }
-            for (size_t i = 0; i < hits.size(); ++i) {
-                // Along is not made unit again: distances stay the world's.
+            // Along is not made unit again: distances stay the world's.
+            const size_t triangle_count = primitive.indices.size() / 3;
+            std::vector<size_t> met; // rays
+            for (size_t i = 0; i < hits.size() && tests <= kMostTests; ++i) {
                 const Ray ray{from, glm::dmat3(object_from_world) * directions_world[i]};
                 const double nearest =
                     hits[i] ? hits[i]->distance_m : std::numeric_limits<double>::infinity();
-                if (!meets(ray, primitive.bounds, nearest)) {
-                    continue;
+                if (meets(ray, primitive.bounds, nearest)) {
+                    tests += triangle_count;
+                    met.push_back(i);
                 }
-                tests += primitive.indices.size() / 3;
-                if (tests > kMostTests) {
-                    return hits;
+            }
+            if (tests > kMostTests) {
+                met.pop_back();
+            }
+            const size_t threads =
+                std::min(threadCount(met.size() * triangle_count, kTestsPerThread), met.size() + 1);
+            onThreads(met.size(), threads, [&](size_t /*thread*/, size_t begin, size_t end) {
+                for (const size_t i : std::span(met).subspan(begin, end - begin)) {
+                    const Ray ray{from, glm::dmat3(object_from_world) * directions_world[i]};
+                    for (size_t k = 0; k < triangle_count; ++k) {
+                        meetTriangle(ray, primitive, k, hits[i]);
+                    }
                 }
-                for (size_t k = 0; k < primitive.indices.size() / 3; ++k) {
-                    meetTriangle(ray, primitive, k, hits[i]);
-                }
+            });
+            if (tests > kMostTests) {
+                return hits;
             }
         }
     }
