@@ -8,6 +8,7 @@
 #include "app/setting_options.h"
 #include "app/suggestion.h"
 #include "bench/presets.h"
+#include "builtin_scene/spheres.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "encode/image_file.h"
@@ -346,8 +347,15 @@ void addInfo(CLI::App& app, Targets& targets) {
 
 void addScene(CLI::App& app, Targets& targets) {
     auto& options = targets.scene;
-    CommandBuilder command(app, "scene", "Write the built-in scene to a file");
+    CommandBuilder command(app, "scene", "Write a built-in scene to a file");
     command.value("--out", "FILE", options.out, parseGlbPath, "", "Binary glTF, .glb")->required();
+    auto* const spheres =
+        command.number("--spheres", options.spheres, builtin_scene::kSphereTrianglesRange,
+                       "the hall", "A field of bumpy spheres with so many triangles instead");
+    command
+        .number("--copies", options.copies, builtin_scene::kSphereCopiesRange, "1",
+                "How often each of the ten spheres is placed")
+        ->needs(spheres);
     finish(command, options, LogLevel::kWarn, targets);
 }
 

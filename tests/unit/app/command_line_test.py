@@ -228,6 +228,17 @@ class CommandLine(unittest.TestCase):
         for key in ("triangles", "draws", "materials", "cameras", "lights"):
             self.assertEqual(reports[0]["scene"][key], reports[1]["scene"][key], key)
 
+    def test_scene_writes_a_field_of_spheres(self):
+        field = self.folder / "field.glb"
+        run = froxel("scene", "--out", field, "--spheres", "2000", "--copies", "3")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        report = json.loads(froxel("info", "--device", "cpu", "--scene", field, "--json").stdout)["scene"]
+        self.assertGreaterEqual(report["triangles"], 6000)
+        self.assertLess(report["triangles"], 8000)
+        alone = froxel("scene", "--out", field, "--copies", "3")
+        self.assertEqual(alone.returncode, 2)
+        self.assertIn("--copies requires --spheres", alone.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
