@@ -73,7 +73,7 @@ void recordFill(const AssignContext& assign) {
 }
 
 void recordOrder(const AssignContext& assign) {
-    dispatchIndirect(assign, AssignPass::kOrder, offsetof(io::AssignTotals, short_lists));
+    dispatchIndirect(assign, AssignPass::kOrderShort, offsetof(io::AssignTotals, short_lists));
     dispatchIndirect(assign, AssignPass::kOrderLong, offsetof(io::AssignTotals, long_lists));
 }
 

@@ -11,7 +11,16 @@
 
 namespace froxel::render {
 
-enum class AssignPass : uint8_t { kLines, kBound, kCount, kSum, kPlace, kFill, kOrder, kOrderLong };
+enum class AssignPass : uint8_t {
+    kLines,
+    kBound,
+    kCount,
+    kSum,
+    kPlace,
+    kFill,
+    kOrderShort,
+    kOrderLong
+};
 
 class AssignPipelines {
   public:
