@@ -9,9 +9,9 @@ Viewer::Viewer(const ViewerNews& first, std::shared_ptr<FramePipeline> its_pipel
     : sink(first.sink), pipeline(std::move(its_pipeline)), state(*first.state),
       beside(!first.account) {}
 
-void Viewer::noteCompiling(bool under_way, TimePoint now) {
+void Viewer::noteCompiling(bool compiles, TimePoint now) {
     constexpr std::chrono::milliseconds kNoticed{300};
-    if (!under_way) {
+    if (!compiles) {
         compiling_since.reset();
     } else if (!compiling_since) {
         compiling_since = now;

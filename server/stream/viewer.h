@@ -86,7 +86,7 @@ struct Viewer {
 
     // Shaders that the next picture needs are being compiled, or no longer. The connection hears of
     // what takes long enough to be noticed.
-    void noteCompiling(bool under_way, TimePoint now);
+    void noteCompiling(bool compiles, TimePoint now);
     [[nodiscard]] bool idle() const { return under_way == 0 && pipeline->size() == 0; }
     [[nodiscard]] bool moves() const { return changed || state.animatingAt(shown_at); }
     // When the next frame is due, as far as that is up to this viewer; none: nothing is to be

@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(All,
                                          Seen{"above", {0, 0, 5}, {0, 9, 0}, false},
                                          Seen{"below", {0, 0, 5}, {0, -9, 0}, false},
                                          Seen{"within", {0, 0, 0}, {0, 0, 1}, false}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& seen) { return std::string(seen.param.name); });
 
 } // namespace
 } // namespace froxel::scene
