@@ -4,8 +4,8 @@
 #include "embedded.h"
 #include "gpu/pipeline.h"
 #include "interface/pose_io.h"
+#include "render/pipelines/storage_set.h"
 
-#include <array>
 #include <string>
 
 namespace froxel::render {
@@ -21,11 +21,7 @@ vk::raii::DescriptorSetLayout setLayoutOf(const gpu::Device& device) {
                                           " storage buffers in a shader; this device allows " +
                                           std::to_string(most)});
     }
-    std::array<vk::DescriptorSetLayoutBinding, PosePipelines::kBindings> bindings;
-    for (uint32_t i = 0; i < bindings.size(); ++i) {
-        bindings[i] = {i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute};
-    }
-    return gpu::makeSetLayout(device, bindings);
+    return storageLayout(device, PosePipelines::kBindings);
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 #include "render/scene/mesh_poser.h"
 
-#include "gpu/pipeline.h"
 #include "render/scene/scene_resources.h"
 #include "scene/motion.h"
 
@@ -79,11 +78,6 @@ upload(gpu::MemoryArena& arena, gpu::Uploader& uploader, std::vector<T> table, c
                          gpu::MemoryUse::kDevice, name);
     uploader.upload(buffer, std::move(table));
     return buffer;
-}
-
-vk::raii::DescriptorPool poolOf(const gpu::Device& device) {
-    const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer, PosePipelines::kBindings};
-    return gpu::makeDescriptorPool(device, std::array{size});
 }
 
 gpu::Buffer copyOf(gpu::MemoryArena& arena, const gpu::Buffer& source) {
@@ -177,8 +171,7 @@ void MeshPoser::recordFlatNormals(const vk::raii::CommandBuffer& cmd, vk::Descri
 }
 
 PoseSet::PoseSet(const gpu::Device& device, const MeshPoser& poser)
-    : device_(device), pool_(poolOf(device)),
-      set_(gpu::makeSet(device, pool_, poser.pipelines().setLayout())) {}
+    : set_(device, poser.pipelines().setLayout(), PosePipelines::kBindings) {}
 
 void PoseSet::write(const SceneResources& scene,
                     const MeshPoser& poser,
@@ -204,13 +197,7 @@ void PoseSet::write(const SceneResources& scene,
         all(moved.positions),
         all(moved.surfaces),
         all(moved.extended ? moved.extended : moved.surfaces)};
-    device_.handle().updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = *set_,
-                               .dstBinding = 0,
-                               .descriptorCount = static_cast<uint32_t>(buffers.size()),
-                               .descriptorType = vk::DescriptorType::eStorageBuffer,
-                               .pBufferInfo = buffers.data()},
-        {});
+    set_.write(buffers);
 }
 
 } // namespace froxel::render

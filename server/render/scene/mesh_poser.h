@@ -6,6 +6,7 @@
 #include "gpu/upload.h"
 #include "interface/pose_io.h"
 #include "render/device/pose_pipelines.h"
+#include "render/pipelines/storage_set.h"
 #include "render/scene/geometry_pack.h"
 #include "scene/scene.h"
 
@@ -92,12 +93,10 @@ class PoseSet {
                const PosedVertices& posed,
                const vk::DescriptorBufferInfo& joints,
                const vk::DescriptorBufferInfo& weights) const;
-    [[nodiscard]] vk::DescriptorSet set() const { return *set_; }
+    [[nodiscard]] vk::DescriptorSet set() const { return set_.handle(); }
 
   private:
-    const gpu::Device& device_;
-    vk::raii::DescriptorPool pool_;
-    vk::raii::DescriptorSet set_;
+    StorageSet set_;
 };
 
 } // namespace froxel::render
