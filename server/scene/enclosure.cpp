@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace froxel::scene {
 
@@ -129,14 +130,14 @@ std::vector<std::optional<RayHit>> castRays(const Scene& scene,
             }
             // Along is not made unit again: distances stay the world's.
             const size_t triangle_count = primitive.indices.size() / 3;
-            std::vector<size_t> met; // rays
+            std::vector<std::pair<Ray, std::optional<RayHit>*>> met;
             for (size_t i = 0; i < hits.size() && tests <= kMostTests; ++i) {
                 const Ray ray{from, glm::dmat3(object_from_world) * directions_world[i]};
                 const double nearest =
                     hits[i] ? hits[i]->distance_m : std::numeric_limits<double>::infinity();
                 if (meets(ray, primitive.bounds, nearest)) {
                     tests += triangle_count;
-                    met.push_back(i);
+                    met.emplace_back(ray, &hits[i]);
                 }
             }
             if (tests > kMostTests) {
@@ -145,10 +146,9 @@ std::vector<std::optional<RayHit>> castRays(const Scene& scene,
             const size_t threads =
                 std::min(threadCount(met.size() * triangle_count, kTestsPerThread), met.size() + 1);
             onThreads(met.size(), threads, [&](size_t /*thread*/, size_t begin, size_t end) {
-                for (const size_t i : std::span(met).subspan(begin, end - begin)) {
-                    const Ray ray{from, glm::dmat3(object_from_world) * directions_world[i]};
+                for (const auto& [ray, hit] : std::span(met).subspan(begin, end - begin)) {
                     for (size_t k = 0; k < triangle_count; ++k) {
-                        meetTriangle(ray, primitive, k, hits[i]);
+                        meetTriangle(ray, primitive, k, *hit);
                     }
                 }
             });
