@@ -31,8 +31,7 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     static constexpr uint32_t kCapacity = 2;
 
     // `on_progress` runs whenever a picture has left, on an encoder thread or in push(); must not
-    // throw.
-    // `session` is for the log; `fates` counts.
+    // throw. `session` is for the log; `fates` counts.
     FramePipeline(encode::EncodePool& pool,
                   session::SessionId session,
                   std::weak_ptr<session::FrameSink> sink,

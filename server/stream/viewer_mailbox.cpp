@@ -9,6 +9,10 @@ void ViewerMailbox::publish(session::SessionId id, Slot& slot) {
     if (!std::exchange(slot.fresh, true)) {
         fresh_.push_back(id);
     }
+    wakeUp();
+}
+
+void ViewerMailbox::wakeUp() {
     awake_ = true;
     wake_.notify_one();
 }
@@ -69,15 +73,14 @@ void ViewerMailbox::noteProgress(session::SessionId id) {
     const std::lock_guard lock(mutex_);
     if (const auto slot = slots_.find(id); slot != slots_.end()) {
         publish(id, slot->second);
+    } else {
+        wakeUp();
     }
-    awake_ = true;
-    wake_.notify_one();
 }
 
 void ViewerMailbox::wake() {
     const std::lock_guard lock(mutex_);
-    awake_ = true;
-    wake_.notify_one();
+    wakeUp();
 }
 
 void ViewerMailbox::close(Error reason) {

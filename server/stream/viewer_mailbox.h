@@ -63,6 +63,7 @@ class ViewerMailbox {
     template <class Change>
     void change(session::SessionId id, const Change& apply);
     void publish(session::SessionId id, Slot& slot);
+    void wakeUp(); // under the lock
 
     mutable std::mutex mutex_;
     std::condition_variable_any wake_;
