@@ -4,11 +4,10 @@
 #include "builtin_scene/shade.h"
 #include "builtin_scene/surface.h"
 #include "core/assert.h"
+#include "core/parallel.h"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -104,20 +103,13 @@ std::vector<Look> looks() {
 // Bakes every recipe; the work is shared by threads, the result does not depend on them.
 std::vector<BakedMaps> bakeAll(const std::vector<Look>& table) {
     std::vector<BakedMaps> maps(table.size());
-    std::atomic<size_t> next{0};
-    const auto work = [&] {
-        for (size_t i = next++; i < table.size(); i = next++) {
-            if (table[i].recipe) {
-                maps[i] = bake(*table[i].recipe);
-            }
-        }
-    };
-    std::vector<std::jthread> helpers(std::clamp(std::thread::hardware_concurrency(), 1U, 8U) - 1);
-    for (std::jthread& helper : helpers) {
-        helper = std::jthread(work);
-    }
-    work();
-    helpers.clear(); // joins
+    constexpr size_t kMostThreads = 8;
+    eachOnThreads(table.size(), std::min(threadCount(table.size(), 1), kMostThreads),
+                  [&](size_t i) {
+                      if (table[i].recipe) {
+                          maps[i] = bake(*table[i].recipe);
+                      }
+                  });
     return maps;
 }
 

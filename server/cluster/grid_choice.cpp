@@ -1,6 +1,7 @@
 #include "cluster/grid_choice.h"
 
 #include "core/assert.h"
+#include "core/ceil_divide.h"
 
 #include <algorithm>
 #include <array>
@@ -18,10 +19,6 @@ constexpr double kSlant = 2;
 constexpr double kPi = 3.14159265358979323846;
 // Lists of this share of all lights save less than they cost.
 constexpr double kLongList = 0.5;
-
-uint32_t ceilDivide(uint32_t value, uint32_t divisor) {
-    return (value + divisor - 1) / divisor;
-}
 
 GridShape shapeOf(const GridFacts& facts, uint32_t tile_px, uint32_t slices) {
     const settings::Size& image = facts.frustum.image;

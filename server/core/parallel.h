@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <future>
 #include <system_error>
@@ -42,6 +43,18 @@ void onThreads(size_t count, size_t threads, const Job& job) {
     for (auto& other : others) {
         other.get();
     }
+}
+
+// Calls job(i) for each i below `count`, in any order, on so many threads: whoever is done takes
+// the next. Otherwise as onThreads().
+template <class Job>
+void eachOnThreads(size_t count, size_t threads, const Job& job) {
+    std::atomic<size_t> next{0};
+    onThreads(threads, threads, [&](size_t /*thread*/, size_t /*begin*/, size_t /*end*/) {
+        for (size_t i = next++; i < count; i = next++) {
+            job(i);
+        }
+    });
 }
 
 } // namespace froxel

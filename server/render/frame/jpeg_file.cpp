@@ -1,26 +1,20 @@
 #include "render/frame/jpeg_file.h"
 
+#include "core/ceil_divide.h"
+
 #include <algorithm>
 #include <cstring>
 
 namespace froxel::render {
-
-namespace {
-
-uint32_t over(uint32_t count, uint32_t each) {
-    return (count + each - 1) / each;
-}
-
-} // namespace
 
 JpegSizes::JpegSizes(const settings::Size& size, const JpegFormat& format) {
     const uint32_t unit_px = 8 * format.luma_sampling;
     const uint32_t unit_blocks = format.luma_sampling * format.luma_sampling + 2;
     picture.width_px = size.width_px;
     picture.height_px = size.height_px;
-    picture.units_across = over(size.width_px, unit_px);
-    picture.unit_count = picture.units_across * over(size.height_px, unit_px);
-    picture.run_count = over(picture.unit_count, io::kJpegGroupBlocks / unit_blocks);
+    picture.units_across = ceilDivide(size.width_px, unit_px);
+    picture.unit_count = picture.units_across * ceilDivide(size.height_px, unit_px);
+    picture.run_count = ceilDivide(picture.unit_count, io::kJpegGroupBlocks / unit_blocks);
     run_bytes = picture.run_count * sizeof(io::JpegRun);
     place_bytes = (uint64_t{picture.run_count} + 1) * sizeof(io::JpegPlace);
     code_bytes = (uint64_t{picture.run_count} * io::kJpegGroupWords + 1) * sizeof(uint32_t);
@@ -28,10 +22,10 @@ JpegSizes::JpegSizes(const settings::Size& size, const JpegFormat& format) {
     const uint32_t samples = unit_blocks * static_cast<uint32_t>(kJpegBlock);
     const uint32_t most = 2 * picture.unit_count * samples + 2048;
     const auto header_bytes = static_cast<uint32_t>(format.header.size());
-    picture.scan_at = over(sizeof(uint32_t) + header_bytes, 4) * 4;
+    picture.scan_at = ceilDivide(4 + header_bytes, 4U) * 4;
     picture.scan_bytes = most - header_bytes;
     header_at = picture.scan_at - header_bytes;
-    file_bytes = over(picture.scan_at + picture.scan_bytes, 4) * 4;
+    file_bytes = ceilDivide(picture.scan_at + picture.scan_bytes, 4U) * 4;
 }
 
 void writeJpegHeader(const JpegFormat& format, const JpegSizes& sizes, std::byte* mapped) {

@@ -1,14 +1,16 @@
 #include "render/frame/planes.h"
 
+#include "core/ceil_divide.h"
+
 namespace froxel::render {
 
 PlaneSizes::PlaneSizes(const settings::Size& size, uint32_t sampling) {
-    const auto words = [](uint32_t bytes) { return (bytes + 3) / 4; };
+    const auto words = [](uint32_t bytes) { return ceilDivide(bytes, 4U); };
     picture.width_px = size.width_px;
     picture.height_px = size.height_px;
     picture.luma_row = words(size.width_px);
-    picture.chroma_row = words((size.width_px + sampling - 1) / sampling);
-    picture.chroma_height = (size.height_px + sampling - 1) / sampling;
+    picture.chroma_row = words(ceilDivide(size.width_px, sampling));
+    picture.chroma_height = ceilDivide(size.height_px, sampling);
 }
 
 PlaneView PlaneSizes::view(const std::byte* host) const {

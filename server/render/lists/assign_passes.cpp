@@ -1,5 +1,6 @@
 #include "render/lists/assign_passes.h"
 
+#include "core/ceil_divide.h"
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/pass_names.h"
 
@@ -9,10 +10,6 @@
 namespace froxel::render {
 
 namespace {
-
-uint32_t groups(uint32_t count, uint32_t each) {
-    return (count + each - 1) / each;
-}
 
 void bind(const AssignContext& assign, AssignPass pass) {
     assign.cmd.bindPipeline(vk::PipelineBindPoint::eCompute, assign.pipelines.pipeline(pass));
@@ -32,7 +29,7 @@ void dispatchIndirect(const AssignContext& assign, AssignPass pass, size_t argum
 }
 
 uint32_t scanGroups(const AssignContext& assign) {
-    return groups(assign.slot.frame().cluster_count, io::kAssignScanBlock);
+    return ceilDivide(assign.slot.frame().cluster_count, io::kAssignScanBlock);
 }
 
 void clearLists(const AssignContext& assign) {
@@ -53,7 +50,8 @@ void recordLines(const AssignContext& assign) {
 }
 
 void recordBound(const AssignContext& assign) {
-    dispatch(assign, AssignPass::kBound, groups(assign.slot.frame().light_count, io::kAssignGroup));
+    dispatch(assign, AssignPass::kBound,
+             ceilDivide(assign.slot.frame().light_count, io::kAssignGroup));
 }
 
 void recordCount(const AssignContext& assign) {

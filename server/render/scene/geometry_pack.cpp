@@ -1,9 +1,9 @@
 #include "render/scene/geometry_pack.h"
 
+#include "core/ceil_divide.h"
 #include "core/parallel.h"
 
 #include <algorithm>
-#include <atomic>
 #include <meshoptimizer.h>
 #include <span>
 #include <utility>
@@ -131,7 +131,7 @@ void addParts(const scene::Primitive& source,
     meshopt_spatialSortTriangles(sorted.data(), source.indices.data(), source.indices.size(),
                                  &source.positions.front().x, source.positions.size(),
                                  sizeof(glm::vec3));
-    const size_t count = (triangle_count + most - 1) / most;
+    const size_t count = ceilDivide(triangle_count, most);
     for (size_t i = 0; i < count; ++i) {
         const auto begin =
             sorted.begin() + static_cast<ptrdiff_t>(3 * (triangle_count * i / count));
@@ -152,20 +152,12 @@ PackedPrimitive describe(const scene::Primitive& source, size_t vertex_offset) {
     return packed;
 }
 
-// Calls job(i) for each i below `count`, on as many threads as `work` of them pay.
-template <class Job>
-void forEach(size_t count, size_t work, size_t least_each, const Job& job) {
-    std::atomic<size_t> next = 0;
-    const size_t threads = std::min(threadCount(work, least_each), std::max<size_t>(count, 1));
-    onThreads(threads, threads, [&](size_t /*thread*/, size_t /*begin*/, size_t /*end*/) {
-        for (size_t i = next++; i < count; i = next++) {
-            job(i);
-        }
-    });
-}
-
 // Starting a thread costs about as much as some thousands of triangles.
 constexpr size_t kTrianglesPerThread = 16'384;
+
+size_t threadsFor(size_t count, size_t triangle_count) {
+    return std::clamp<size_t>(count, 1, threadCount(triangle_count, kTrianglesPerThread));
+}
 
 void appendParts(std::vector<Part> parts, PackedGeometry& out) {
     std::vector<std::pair<size_t, size_t>> firsts; // index and meshlet of each part
@@ -185,7 +177,7 @@ void appendParts(std::vector<Part> parts, PackedGeometry& out) {
     }
     out.indices.resize(index_count);
     out.meshlets.resize(meshlet_count);
-    forEach(parts.size(), index_count / 3, kTrianglesPerThread, [&](size_t i) {
+    eachOnThreads(parts.size(), threadsFor(parts.size(), index_count / 3), [&](size_t i) {
         Part& part = parts[i];
         const auto& [first_index, first_meshlet] = firsts[i];
         std::ranges::copy(part.indices, out.indices.begin() + static_cast<ptrdiff_t>(first_index));
@@ -242,9 +234,11 @@ PackedGeometry packGeometry(const scene::Scene& scene, size_t most_at_once) {
     out.surfaces.resize(vertex_count);
     out.extended.resize(extended_count);
     const size_t work = index_count / 3;
-    forEach(primitives.size(), work, kTrianglesPerThread,
-            [&](size_t i) { packVertices(*primitives[i].first, *primitives[i].second, out); });
-    forEach(parts.size(), work, kTrianglesPerThread, [&](size_t i) { packTriangles(parts[i]); });
+    eachOnThreads(primitives.size(), threadsFor(primitives.size(), work), [&](size_t i) {
+        packVertices(*primitives[i].first, *primitives[i].second, out);
+    });
+    eachOnThreads(parts.size(), threadsFor(parts.size(), work),
+                  [&](size_t i) { packTriangles(parts[i]); });
     appendParts(std::move(parts), out);
     return out;
 }

@@ -30,6 +30,18 @@ TEST(Parallel, EveryThingIsInOneRange) {
     }
 }
 
+TEST(Parallel, EachThing_IsTakenOnce) {
+    for (const size_t count : {0U, 1U, 7U, 1000U}) {
+        for (const size_t threads : {1U, 3U, 16U}) {
+            std::vector<std::atomic<int>> visits(count);
+            eachOnThreads(count, threads, [&](size_t i) { ++visits[i]; });
+            for (const auto& times : visits) {
+                EXPECT_EQ(times, 1) << count << " things on " << threads << " threads";
+            }
+        }
+    }
+}
+
 TEST(Parallel, FewThings_HaveOneThread) {
     EXPECT_EQ(threadCount(0, 100), 1U);
     EXPECT_EQ(threadCount(199, 100), 1U);
