@@ -71,7 +71,8 @@ class Run {
         }
         const auto busy_before = processTime();
         const auto length = std::chrono::duration_cast<Clock::duration>(options_.seconds);
-        watch(begin + length, [this] { return ended_ == count(); });
+        // Who left as the stages say is no reason to end: a last stage may have no viewers at all.
+        watch(begin + length, [this] { return failed_ == count(); });
         const TimePoint end = Clock::now();
         const Seconds busy = processTime() - busy_before;
         if (end - last_look_ >= kLeastSecond) {
@@ -108,7 +109,12 @@ class Run {
 
     void onEvent(Viewer::Event event) {
         const std::lock_guard lock(mutex_);
-        ++(event == Viewer::Event::kJoined ? joined_ : ended_);
+        if (event == Viewer::Event::kJoined) {
+            ++joined_;
+        } else {
+            ++ended_;
+            failed_ += event == Viewer::Event::kFailed ? 1 : 0;
+        }
         changed_.notify_all();
     }
 
@@ -190,7 +196,8 @@ class Run {
     std::mutex mutex_;
     std::condition_variable_any changed_;
     uint32_t joined_ = 0;
-    uint32_t ended_ = 0;
+    uint32_t ended_ = 0; // left or failed
+    uint32_t failed_ = 0;
     std::vector<Crew> crews_;
 };
 

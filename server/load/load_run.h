@@ -45,7 +45,7 @@ struct RunResult {
 };
 
 // Blocks for as long as that takes, ending early on `stop`, when `each_second` says false, or when
-// every viewer has ended; calls `each_second` on the calling thread. What goes wrong is in the
+// every viewer has failed; calls `each_second` on the calling thread. What goes wrong is in the
 // viewers' results.
 [[nodiscard]] RunResult runLoad(const RunOptions& options,
                                 const std::stop_token& stop,

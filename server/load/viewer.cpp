@@ -459,7 +459,7 @@ void Viewer::finish() {
     if (!result_.first_frame_ms) {
         report_(Event::kJoined);
     }
-    report_(Event::kEnded);
+    report_(result_.failure ? Event::kFailed : Event::kLeft);
 }
 
 ViewerChange Viewer::takeChange(TimePoint now) {

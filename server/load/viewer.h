@@ -81,8 +81,8 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     // After the end, for the server's answer to Close.
     static constexpr std::chrono::seconds kCloseTimeout{2};
 
-    // Each comes once. kJoined: has a first frame, or ended without one.
-    enum class Event : uint8_t { kJoined, kEnded };
+    // kJoined: has a first frame, or ended without one. Then one of the others, each once.
+    enum class Event : uint8_t { kJoined, kLeft, kFailed };
     Viewer(boost::asio::any_io_executor executor,
            const ViewerOptions& options,
            ViewerPlan plan,
@@ -95,11 +95,11 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     void start(TimePoint run_start);
     // Measuring and the script begin.
     void begin(TimePoint now);
-    // Measuring ends, and the connection is closed. kEnded follows if it did not come yet.
+    // Measuring ends, and the connection is closed. kLeft follows, unless kFailed came before.
     void end(TimePoint now);
 
     [[nodiscard]] ViewerChange takeChange(TimePoint now);
-    // After kEnded.
+    // After kLeft or kFailed.
     [[nodiscard]] ViewerResult result() const;
 
   private:
