@@ -208,6 +208,9 @@ void addServe(CLI::App& app, Targets& targets) {
                     "changes, and reads the folder again on SIGHUP");
     addSceneChoices(command, options.choices);
     addEnvironmentFile(command, options.environment_file);
+    command.cli().add_flag("--detail-levels", options.detail_levels,
+                           "Make coarser levels of scenes while they load, for viewers who ask for "
+                           "a geometry error. Loading takes longer");
     command.group("Scenes");
     command.device(options.device, options.validation);
     command.name("--jpeg-encoder", options.jpeg_encoder, stream::kJpegPlaceNames,

@@ -165,7 +165,8 @@ void runRender(const RenderOptions& options) try {
         run.settings.debug.grid_camera =
             findCamera(*options.grid_camera, scene, run.settings.size).value();
     }
-    render::Renderer renderer(device, scene);
+    render::Renderer renderer(device, scene, {},
+                              {.detail_levels = run.settings.geometry_error_px > 0});
     render::ViewRenderer viewer(renderer);
     const auto last = drawAll(options, playback, viewer, run);
     if (!options.out.empty()) {

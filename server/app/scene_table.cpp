@@ -37,7 +37,7 @@ Json rowOf(const catalogue::Offered& file) {
     row["draws"] = summary.draw_count;
     row["materials"] = summary.material_count;
     row["textures"] = summary.texture_count;
-    row["device_bytes"] = render::sceneBytes(*scene);
+    row["device_bytes"] = render::sceneBytes(*scene, {});
     row["animations"] = scene->motion ? scene->motion->clips.size() : 0;
     row["variants"] = summary.material_variants.size();
     row["warnings"] = summary.warnings.size() + summary.warnings_left_out;

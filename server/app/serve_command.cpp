@@ -87,7 +87,8 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
     tellMemory(limits, options.sessions_max);
     auto source = stream::makeRendererSource(
         std::move(device), *first.scene, first.context.first_view.cameraFor(settings::Size{}),
-        Seconds(options.frame_limit_s), limits, {options.jpeg_encoder, encoderCount()});
+        Seconds(options.frame_limit_s), limits, {.detail_levels = options.detail_levels},
+        {options.jpeg_encoder, encoderCount()});
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
     const uint64_t scene_bytes = sceneMemoryBytes(options.memory, limits);

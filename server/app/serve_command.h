@@ -27,6 +27,7 @@ struct ServeOptions {
     SceneChoices choices;
     std::filesystem::path scenes;           // a folder of others; empty: there are none
     std::filesystem::path environment_file; // of light from around; empty: none
+    bool detail_levels = false;             // render::SceneOptions
     gpu::DeviceChoice device = gpu::DeviceChoice::kAuto;
     bool validation = false;
     gpu::PipelineCacheOptions pipeline_cache;

@@ -37,6 +37,7 @@ constexpr std::array kTurns = {
     Turn::kSetFog,          Turn::kSetTransparency,
     Turn::kSetPlacedLights, Turn::kSetEnvironment,
     Turn::kSetAnimation,    Turn::kSetMaterialVariant,
+    Turn::kSetGeometry,
 };
 
 v1::Vec3 vec(double x, double y, double z) {
@@ -212,6 +213,8 @@ void StormScript::fillCommand(v1::ClientMessage& message) {
         return fillGrid(*message.mutable_set_grid());
     case Turn::kSetFog:
         return fillFog(*message.mutable_set_fog()->mutable_fog());
+    case Turn::kSetGeometry:
+        return values_.fill(*message.mutable_set_geometry()->mutable_geometry(), kAll);
     case Turn::kSetEnvironment:
         return fillEnvironment(*message.mutable_set_environment());
     case Turn::kSetToon:

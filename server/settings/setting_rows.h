@@ -54,6 +54,13 @@ inline constexpr std::array kSettingRows = {
         "list_cap",
         {"List cap", "Maximum number of lights in a list, the strongest ones; 0: no limit", "",
          "faster and darker; the host builds the lists"}),
+    row<&ViewSettings::geometry_error_px>(
+        Range<double>{"geometry_error", 0, 100},
+        "geometry_error_px",
+        {"Geometry error",
+         "Maximum distance in the picture between a surface as drawn and its full model, where the "
+         "server keeps coarser levels of the scene; 0: the full model",
+         "px", "more: fewer triangles"}),
     row<&ViewSettings::transparency>(
         Names{"transparency", kTransparencyNames},
         "transparency",

@@ -298,6 +298,7 @@ struct ViewSettings {
                            // can add most; 0: all that reach it
     bool count_pairs = false; // count evaluated and contributing light-pixel pairs; costs time
     Debug debug;
+    float geometry_error_px = 0; // trades error for speed: surfaces may be so far off their place
     Transparency transparency = Transparency::kSorted;
     uint32_t peel_layers = 4; // at most, while peeled; pixels with more are counted
     Lights lights;

@@ -183,8 +183,9 @@ class RendererSource final : public FrameSource {
     RendererSource(std::unique_ptr<gpu::Device> device,
                    const scene::Scene& scene,
                    Seconds frame_limit,
-                   const render::MemoryLimits& memory)
-        : device_(std::move(device)), on_(*device_, memory),
+                   const render::MemoryLimits& memory,
+                   const render::SceneOptions& scenes)
+        : device_(std::move(device)), scenes_(scenes), on_(*device_, memory, scenes),
           renderer_(on_, scene), work_{.limits = limitsOf(*device_, frame_limit),
                                        .is_host = device_->traits().is_cpu} {}
 
@@ -215,7 +216,7 @@ class RendererSource final : public FrameSource {
     [[nodiscard]] double pace() const override { return work_.pace.value(); }
 
     [[nodiscard]] uint64_t sceneBytes(const scene::Scene& scene) const override {
-        return render::sceneBytes(scene);
+        return render::sceneBytes(scene, scenes_);
     }
 
     [[nodiscard]] Result<std::unique_ptr<SceneMove>>
@@ -247,6 +248,7 @@ class RendererSource final : public FrameSource {
     }
 
     std::unique_ptr<gpu::Device> device_;
+    const render::SceneOptions scenes_;
     render::RenderDevice on_;
     render::Renderer renderer_;
     DeviceWork work_;
@@ -259,8 +261,10 @@ std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> dev
                                                 const settings::Camera& camera,
                                                 Seconds frame_limit,
                                                 const render::MemoryLimits& memory,
+                                                const render::SceneOptions& scenes,
                                                 const JpegOptions& jpeg) {
-    auto source = std::make_unique<RendererSource>(std::move(device), scene, frame_limit, memory);
+    auto source =
+        std::make_unique<RendererSource>(std::move(device), scene, frame_limit, memory, scenes);
     const auto fail = [&source](const Error& error) {
         if (error.code == ErrorCode::kDevice) {
             keepForGood(std::move(source));

@@ -3,6 +3,7 @@
 
 #include "core/clock.h"
 #include "render/device/memory_budget.h"
+#include "render/device/scene_options.h"
 #include "stream/frame_source.h"
 #include "stream/jpeg_place.h"
 
@@ -36,11 +37,13 @@ struct JpegOptions {
 // Moves the scene to the device and measures how fast that is where `camera` looks; frames that
 // would take longer than `frame_limit` are refused. The scene is not needed afterwards. On the
 // render thread, which must also end what comes back. Throws StartupError, vk::SystemError.
-[[nodiscard]] std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> device,
-                                                              const scene::Scene& scene,
-                                                              const settings::Camera& camera,
-                                                              Seconds frame_limit,
-                                                              const render::MemoryLimits& memory,
-                                                              const JpegOptions& jpeg = {});
+[[nodiscard]] std::unique_ptr<FrameSource>
+makeRendererSource(std::unique_ptr<gpu::Device> device,
+                   const scene::Scene& scene,
+                   const settings::Camera& camera,
+                   Seconds frame_limit,
+                   const render::MemoryLimits& memory,
+                   const render::SceneOptions& scenes = {},
+                   const JpegOptions& jpeg = {});
 
 } // namespace froxel::stream

@@ -84,7 +84,7 @@ TEST(RendererSource, PlaceOfJpegs_IsAsChosen) {
          {stream::JpegPlace::kAuto, stream::JpegPlace::kHost, stream::JpegPlace::kDevice}) {
         const LogText log;
         const auto source = stream::makeRendererSource(openTestDevice(), room, wholeOf(room),
-                                                       Seconds(10), {}, {place, 1});
+                                                       Seconds(10), {}, {}, {place, 1});
         const bool compared = onGpu() && place == stream::JpegPlace::kAuto;
         const bool on_device = place == stream::JpegPlace::kDevice;
         EXPECT_EQ(log.text().find("event=jpeg_encoder") != std::string::npos,

@@ -159,6 +159,7 @@ bool leavesThePicture(std::string_view setting) {
         "ambient",                                 // gives way to what is around
         "background_color", "background_gradient", // are behind that
         "outline_width",                           // a pixel at least, which this is
+        "geometry_error",                          // the room has no coarser levels
     });
     return std::ranges::find(kNames, setting) != kNames.end();
 }

@@ -13,8 +13,10 @@
 
 namespace froxel::render {
 
-DeviceResources::DeviceResources(gpu::Device& device_in, const MemoryLimits& limits)
-    : device(device_in), timeline(device_in),
+DeviceResources::DeviceResources(gpu::Device& device_in,
+                                 const MemoryLimits& limits,
+                                 const SceneOptions& options)
+    : device(device_in), scene_options(options), timeline(device_in),
       copies(device_in.copyQueue() != nullptr
                  ? std::optional<gpu::Timeline>(std::in_place, device_in, *device_in.copyQueue())
                  : std::nullopt),

@@ -7,6 +7,7 @@
 #include "gpu/memory.h"
 #include "render/device/memory_budget.h"
 #include "render/device/pose_pipelines.h"
+#include "render/device/scene_options.h"
 #include "render/device/unit_costs.h"
 #include "render/device/visibility_pipelines.h"
 #include "render/lists/assign_pipelines.h"
@@ -25,12 +26,15 @@ namespace froxel::render {
 
 class DeviceResources {
   public:
-    DeviceResources(gpu::Device& device, const MemoryLimits& limits);
+    DeviceResources(gpu::Device& device,
+                    const MemoryLimits& limits,
+                    const SceneOptions& scene_options);
     ~DeviceResources() { variants.stop(); } // which makes what refers to the rest
     DeviceResources(const DeviceResources&) = delete;
     DeviceResources& operator=(const DeviceResources&) = delete;
 
     gpu::Device& device;
+    const SceneOptions scene_options;
     gpu::Timeline timeline;
     std::optional<gpu::Timeline> copies; // beside it; none: the device has no queue for them
     MemoryBudget memory;

@@ -2,6 +2,7 @@
 
 #include "interface/constants.h"
 #include "render/frame/covered_part.h"
+#include "render/frame/detail_choice.h"
 #include "render/frame/triangle_cull.h"
 
 #include <algorithm>
@@ -107,9 +108,11 @@ class Builder {
             const settings::Camera& camera,
             const settings::Size& size,
             const ViewProjection& projection,
+            float geometry_error_px,
             bool by_triangle,
             DrawList& out)
         : scene_(scene), instances_(pose.instances()), items_(pose.items()), camera_(camera),
+          size_(size), projection_(projection), geometry_error_px_(geometry_error_px),
           by_triangle_(by_triangle), clip_from_view_(clipFromView(camera, projection)),
           half_size_px_(glm::vec2(size.width_px, size.height_px) * 0.5F), out_(out) {}
 
@@ -136,6 +139,9 @@ class Builder {
     const std::span<const glm::dmat4> instances_;
     const std::span<const DrawItem> items_;
     const settings::Camera& camera_;
+    const settings::Size& size_;
+    const ViewProjection& projection_;
+    const float geometry_error_px_;
     const bool by_triangle_;
     const glm::mat4 clip_from_view_;
     const glm::vec2 half_size_px_;
@@ -209,12 +215,29 @@ void Builder::collect(uint32_t item_index, std::vector<Visible>& visible) const 
         }
         return;
     }
-    for (uint32_t i = item.primitive.first_meshlet; i < end; ++i) {
+    const auto take = [&](uint32_t i) {
         const Meshlet& m = scene_.meshlets[i];
         if (!v.outside(m.center, m.radius) && !v.facesAway(m)) {
             visible.push_back({distanceBucket(distance(item, m.center)), item_index, i});
         }
+    };
+    if (geometry_error_px_ == 0 || item.primitive.coarser_meshlet_count == 0) {
+        for (uint32_t i = item.primitive.first_meshlet; i < end; ++i) {
+            take(i);
+        }
+        return;
     }
+    const DetailChoice choice(geometry_error_px_, camera_, size_, projection_,
+                              viewFromObject(item));
+    const auto takeDrawn = [&](uint32_t first, uint32_t count) {
+        for (uint32_t i = first; i < first + count; ++i) {
+            if (choice.draws(scene_.details[i])) {
+                take(i);
+            }
+        }
+    };
+    takeDrawn(item.primitive.first_meshlet, item.primitive.meshlet_count);
+    takeDrawn(item.primitive.first_coarser_meshlet, item.primitive.coarser_meshlet_count);
 }
 
 void Builder::openGroup(const DrawItem& item, std::vector<DrawGroup>& groups) {
@@ -389,6 +412,7 @@ void buildDrawList(const SceneResources& scene,
                    const settings::Camera& camera,
                    const settings::Size& size,
                    const ViewProjection& projection,
+                   float geometry_error_px,
                    bool by_triangle,
                    bool solid,
                    TransparentOrder order,
@@ -399,7 +423,8 @@ void buildDrawList(const SceneResources& scene,
     out.transparent_parts.clear();
     out.indices.clear();
     out.triangle_count = 0;
-    Builder(scene, pose, camera, size, projection, by_triangle, out).build(solid, order);
+    Builder(scene, pose, camera, size, projection, geometry_error_px, by_triangle, out)
+        .build(solid, order);
 }
 
 } // namespace froxel::render

@@ -12,11 +12,6 @@ namespace froxel::render {
 
 namespace {
 
-// Small meshlets cull well and still amortise a draw; meshoptimizer wants a multiple of 4.
-constexpr size_t kMeshletVertices = 96;
-constexpr size_t kMeshletTriangles = 124;
-constexpr float kConeWeight = 0.5F;
-
 void packVertices(const scene::Primitive& source, const PackedPrimitive& at, PackedGeometry& out) {
     const auto first = static_cast<size_t>(at.vertex_offset);
     std::ranges::copy(source.positions, out.positions.begin() + at.vertex_offset);
@@ -36,84 +31,15 @@ struct Part {
     const scene::Primitive* source = nullptr;
     PackedPrimitive* primitive = nullptr;
     std::vector<uint32_t> some; // indices; empty: all of the primitive's
-    // What comes of them.
-    std::vector<uint32_t> indices;
-    std::vector<Meshlet> meshlets; // whose first_index is in these
+    MeshletList cut;            // what comes of them
 };
 
-// Cut into meshlets by themselves, with indices of their own, since meshoptimizer makes arrays of
-// as many vertices as there are.
-struct LocalTriangles {
-    explicit LocalTriangles(const Part& part) {
-        const auto& all = part.source->positions;
-        if (part.some.empty()) {
-            indices = part.source->indices;
-            positions = all;
-            return;
-        }
-        vertices = part.some;
-        std::ranges::sort(vertices);
-        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        owned_positions.reserve(vertices.size());
-        for (const uint32_t vertex : vertices) {
-            owned_positions.push_back(all[vertex]);
-        }
-        owned_indices.reserve(part.some.size());
-        for (const uint32_t vertex : part.some) {
-            owned_indices.push_back(static_cast<uint32_t>(
-                std::ranges::lower_bound(vertices, vertex) - vertices.begin()));
-        }
-        indices = owned_indices;
-        positions = owned_positions;
-    }
-    [[nodiscard]] uint32_t original(uint32_t local) const {
-        return vertices.empty() ? local : vertices[local];
-    }
-
-    std::span<const uint32_t> indices;
-    std::span<const glm::vec3> positions;
-
-  private:
-    std::vector<uint32_t> vertices; // the primitive's, where not all of them
-    std::vector<uint32_t> owned_indices;
-    std::vector<glm::vec3> owned_positions;
-};
-
-// Reorders triangles by meshlet.
 void packTriangles(Part& part) {
-    const LocalTriangles local(part);
-    std::vector<uint32_t> ordered(local.indices.size());
-    meshopt_optimizeVertexCache(ordered.data(), local.indices.data(), local.indices.size(),
-                                local.positions.size());
-    const size_t bound =
-        meshopt_buildMeshletsBound(ordered.size(), kMeshletVertices, kMeshletTriangles);
-    std::vector<meshopt_Meshlet> meshlets(bound);
-    std::vector<uint32_t> vertices(bound * kMeshletVertices);
-    std::vector<unsigned char> triangles(bound * kMeshletTriangles * 3);
-    const float* positions = &local.positions.front().x;
-    const size_t vertex_count = local.positions.size();
-    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(),
-                                          ordered.data(), ordered.size(), positions, vertex_count,
-                                          sizeof(glm::vec3), kMeshletVertices, kMeshletTriangles,
-                                          kConeWeight));
-    part.indices.reserve(ordered.size());
-    part.meshlets.reserve(meshlets.size());
-    for (const auto& meshlet : meshlets) {
-        const auto bounds = meshopt_computeMeshletBounds(
-            &vertices[meshlet.vertex_offset], &triangles[meshlet.triangle_offset],
-            meshlet.triangle_count, positions, vertex_count, sizeof(glm::vec3));
-        part.meshlets.push_back(
-            {.first_index = static_cast<uint32_t>(part.indices.size()),
-             .index_count = meshlet.triangle_count * 3,
-             .center = {bounds.center[0], bounds.center[1], bounds.center[2]},
-             .radius = bounds.radius,
-             .cone_axis = {bounds.cone_axis[0], bounds.cone_axis[1], bounds.cone_axis[2]},
-             .cone_cutoff = bounds.cone_cutoff});
-        for (size_t i = 0; i < meshlet.triangle_count * 3; ++i) {
-            const unsigned char corner = triangles[meshlet.triangle_offset + i];
-            part.indices.push_back(local.original(vertices[meshlet.vertex_offset + corner]));
-        }
-    }
+    const scene::Primitive& source = *part.source;
+    const LocalTriangles local = part.some.empty()
+                                     ? LocalTriangles(source.indices, source.positions)
+                                     : LocalTriangles::of(part.some, source.positions);
+    part.cut = cutIntoMeshlets(local, local.indices);
 }
 
 // A primitive's triangles, cut where there are more of them than `most`: into neighbours, so that
@@ -124,7 +50,7 @@ void addParts(const scene::Primitive& source,
               std::vector<Part>& parts) {
     const size_t triangle_count = source.indices.size() / 3;
     if (triangle_count <= most) {
-        parts.push_back({&source, &primitive, {}, {}, {}});
+        parts.push_back({&source, &primitive, {}, {}});
         return;
     }
     std::vector<uint32_t> sorted(source.indices.size());
@@ -137,7 +63,7 @@ void addParts(const scene::Primitive& source,
             sorted.begin() + static_cast<ptrdiff_t>(3 * (triangle_count * i / count));
         const auto end =
             sorted.begin() + static_cast<ptrdiff_t>(3 * (triangle_count * (i + 1) / count));
-        parts.push_back({&source, &primitive, {begin, end}, {}, {}});
+        parts.push_back({&source, &primitive, {begin, end}, {}});
     }
 }
 
@@ -170,23 +96,67 @@ void appendParts(std::vector<Part> parts, PackedGeometry& out) {
             primitive.first_meshlet = static_cast<uint32_t>(meshlet_count);
         }
         firsts.emplace_back(index_count, meshlet_count);
-        index_count += part.indices.size();
-        meshlet_count += part.meshlets.size();
-        primitive.index_count += static_cast<uint32_t>(part.indices.size());
-        primitive.meshlet_count += static_cast<uint32_t>(part.meshlets.size());
+        index_count += part.cut.indices.size();
+        meshlet_count += part.cut.meshlets.size();
+        primitive.index_count += static_cast<uint32_t>(part.cut.indices.size());
+        primitive.meshlet_count += static_cast<uint32_t>(part.cut.meshlets.size());
     }
     out.indices.resize(index_count);
     out.meshlets.resize(meshlet_count);
     eachOnThreads(parts.size(), threadsFor(parts.size(), index_count / 3), [&](size_t i) {
         Part& part = parts[i];
         const auto& [first_index, first_meshlet] = firsts[i];
-        std::ranges::copy(part.indices, out.indices.begin() + static_cast<ptrdiff_t>(first_index));
-        for (size_t m = 0; m < part.meshlets.size(); ++m) {
-            out.meshlets[first_meshlet + m] = part.meshlets[m];
+        std::ranges::copy(part.cut.indices,
+                          out.indices.begin() + static_cast<ptrdiff_t>(first_index));
+        for (size_t m = 0; m < part.cut.meshlets.size(); ++m) {
+            out.meshlets[first_meshlet + m] = part.cut.meshlets[m];
             out.meshlets[first_meshlet + m].first_index += static_cast<uint32_t>(first_index);
         }
         part = {};
     });
+}
+
+std::vector<bool> bentMeshes(const scene::Scene& scene) {
+    std::vector<bool> bent(scene.meshes.size(), false);
+    if (scene.motion) {
+        for (const scene::DeformedMesh& deformed : scene.motion->deformed) {
+            bent[deformed.mesh] = true;
+        }
+    }
+    return bent;
+}
+
+void appendCoarserLevels(const scene::Scene& scene, PackedGeometry& out) {
+    const std::vector<bool> bent = bentMeshes(scene);
+    std::vector<uint32_t> indices;
+    std::vector<Meshlet> meshlets;
+    out.details.resize(out.meshlets.size());
+    const auto first_index = static_cast<uint32_t>(out.indices.size());
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+        for (size_t p = 0; p < out.meshes[m].size() && !bent[m]; ++p) {
+            PackedPrimitive& primitive = out.meshes[m][p];
+            DetailLevels levels = buildDetailLevels(
+                scene.meshes[m].primitives[p].positions, out.indices,
+                std::span(out.meshlets).subspan(primitive.first_meshlet, primitive.meshlet_count));
+            const auto exact = levels.details.begin() + primitive.meshlet_count;
+            std::copy(levels.details.begin(), exact, out.details.begin() + primitive.first_meshlet);
+            out.details.insert(out.details.end(), exact, levels.details.end());
+            primitive.first_coarser_meshlet =
+                static_cast<uint32_t>(out.meshlets.size() + meshlets.size());
+            primitive.coarser_meshlet_count = static_cast<uint32_t>(levels.coarser.meshlets.size());
+            for (Meshlet meshlet : levels.coarser.meshlets) {
+                meshlet.first_index += first_index + static_cast<uint32_t>(indices.size());
+                meshlets.push_back(meshlet);
+            }
+            indices.insert(indices.end(), levels.coarser.indices.begin(),
+                           levels.coarser.indices.end());
+        }
+    }
+    out.indices.insert(out.indices.end(), indices.begin(), indices.end());
+    out.meshlets.insert(out.meshlets.end(), meshlets.begin(), meshlets.end());
+    if (meshlets.empty()) {
+        out.details.clear();
+    }
 }
 
 } // namespace
@@ -200,7 +170,7 @@ bool isExtended(const scene::Primitive& primitive) {
     return !primitive.uv1.empty() || !primitive.colors.empty() || !primitive.tangents.empty();
 }
 
-PackedGeometry packGeometry(const scene::Scene& scene, size_t most_at_once) {
+PackedGeometry packGeometry(const scene::Scene& scene, const PackOptions& options) {
     PackedGeometry out;
     out.meshes.resize(scene.meshes.size());
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
@@ -224,7 +194,7 @@ PackedGeometry packGeometry(const scene::Scene& scene, size_t most_at_once) {
                 vertex_count += source.positions.size();
                 index_count += source.indices.size();
                 if (!source.indices.empty()) {
-                    addParts(source, packed, most_at_once, parts);
+                    addParts(source, packed, options.most_at_once, parts);
                 }
             }
         }
@@ -240,6 +210,9 @@ PackedGeometry packGeometry(const scene::Scene& scene, size_t most_at_once) {
     eachOnThreads(parts.size(), threadsFor(parts.size(), work),
                   [&](size_t i) { packTriangles(parts[i]); });
     appendParts(std::move(parts), out);
+    if (options.detail_levels) {
+        appendCoarserLevels(scene, out);
+    }
     return out;
 }
 

@@ -2,6 +2,8 @@
 // culled by themselves.
 #pragma once
 
+#include "render/scene/detail_levels.h"
+#include "render/scene/meshlets.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
@@ -26,24 +28,15 @@ struct ExtendedVertex {
 };
 static_assert(sizeof(ExtendedVertex) == 40);
 
-// A run of triangles with its bounding sphere and normal cone, in object space. All of its
-// triangles face away from an eye where dot(normalize(center - eye), axis) >= cutoff + radius term;
-// cone_cutoff of 1 means never (meshoptimizer, meshopt_computeMeshletBounds).
-struct Meshlet {
-    uint32_t first_index = 0;
-    uint32_t index_count = 0;
-    glm::vec3 center{0};
-    float radius = 0;
-    glm::vec3 cone_axis{0};
-    float cone_cutoff = 1;
-};
-
 struct PackedPrimitive {
     int32_t vertex_offset = 0;
     uint32_t first_index = 0;
     uint32_t index_count = 0;
     uint32_t first_meshlet = 0;
     uint32_t meshlet_count = 0;
+    // Of coarser levels, which replace those; 0: none.
+    uint32_t first_coarser_meshlet = 0;
+    uint32_t coarser_meshlet_count = 0;
     uint32_t material = 0;
     bool extended = false; // has ExtendedVertex data
     bool tangents = false; // that data's tangents are from the file
@@ -56,8 +49,9 @@ struct PackedGeometry {
     std::vector<glm::vec3> positions;
     std::vector<SurfaceVertex> surfaces;
     std::vector<ExtendedVertex> extended;
-    std::vector<uint32_t> indices;
-    std::vector<Meshlet> meshlets;
+    std::vector<uint32_t> indices;      // of the scene's triangles; then of coarser levels
+    std::vector<Meshlet> meshlets;      // likewise
+    std::vector<MeshletDetail> details; // of each meshlet; empty: there are no coarser levels
     std::vector<std::vector<PackedPrimitive>> meshes; // as in scene::Scene::meshes
 };
 
@@ -74,7 +68,12 @@ using Corners = std::array<uint32_t, 3>;
 // scene gives the same result.
 inline constexpr size_t kMostTrianglesAtOnce = 500'000;
 
+struct PackOptions {
+    size_t most_at_once = kMostTrianglesAtOnce;
+    bool detail_levels = false; // of meshes that no instance bends
+};
+
 [[nodiscard]] PackedGeometry packGeometry(const scene::Scene& scene,
-                                          size_t most_at_once = kMostTrianglesAtOnce);
+                                          const PackOptions& options = {});
 
 } // namespace froxel::render

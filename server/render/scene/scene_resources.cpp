@@ -145,7 +145,7 @@ SceneResources::SceneResources(DeviceResources& shared_in,
     if (const auto fault = scene::findFault(scene)) {
         throw StartupError({ErrorCode::kScene, *fault});
     }
-    auto geometry = packGeometry(scene);
+    auto geometry = packGeometry(scene, {.detail_levels = shared.scene_options.detail_levels});
     if (scene.motion) {
         motion = std::make_unique<const SceneMotion>(shared, arena, uploader, scene, geometry);
     }
@@ -153,6 +153,7 @@ SceneResources::SceneResources(DeviceResources& shared_in,
     auto items = makeItems(scene, geometry, needs, motion.get(), instances);
     keepVariantMaterials(scene, geometry);
     meshlets = std::move(geometry.meshlets);
+    details = std::move(geometry.details);
     uploadGeometry(std::move(geometry), uploader);
     uploadMaterials(scene, uploader);
     undressed_ = std::make_shared<MaterialSet>(*this, std::move(items));

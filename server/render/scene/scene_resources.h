@@ -43,6 +43,7 @@ class SceneResources {
     // the rig's seeded lights are over all clips.
     std::vector<glm::dmat4> instances; // world_from_object
     std::vector<Meshlet> meshlets;
+    std::vector<MeshletDetail> details; // of each; empty: there are no coarser levels
     // The host's copies, for culling by triangle; empty on a GPU, which does not.
     std::vector<uint32_t> indices;
     std::vector<glm::vec3> positions;

@@ -59,6 +59,7 @@ void Culling::start(const FrameInputs& inputs,
                                                              : SolidGeometry::kIds;
     culls_ = {.camera = inputs.settings.camera,
               .size = inputs.settings.size,
+              .geometry_error_px = scene_.details.empty() ? 0 : inputs.settings.geometry_error_px,
               .pose = pose.number(),
               .by_ids = geometry_ != SolidGeometry::kRaster,
               .order = inputs.settings.transparency == settings::Transparency::kSorted
@@ -75,9 +76,9 @@ void Culling::start(const FrameInputs& inputs,
 }
 
 void Culling::build(const ScenePose& pose, const ViewProjection& projection) {
-    const auto& [camera, size, number, by_ids, order] = culls_;
-    buildDrawList(scene_, pose, camera, size, projection, scene_.shared.device.traits().is_cpu,
-                  !by_ids, order, draws_);
+    const auto& [camera, size, geometry_error_px, number, by_ids, order] = culls_;
+    buildDrawList(scene_, pose, camera, size, projection, geometry_error_px,
+                  scene_.shared.device.traits().is_cpu, !by_ids, order, draws_);
     if (by_ids) {
         placeInstances(pose.instances(), camera, draws_.rows, instances_);
         orderMeshlets(pose.materialSet()->visibility(), draws_.rows, meshlet_order_);

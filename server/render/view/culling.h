@@ -39,6 +39,7 @@ class Culling {
     struct Culled {
         settings::Camera camera;
         settings::Size size;
+        float geometry_error_px = 0;
         uint64_t pose = 0;
         bool by_ids = false;
         TransparentOrder order = TransparentOrder::kByDistance;

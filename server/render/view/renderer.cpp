@@ -16,8 +16,10 @@
 
 namespace froxel::render {
 
-RenderDevice::RenderDevice(gpu::Device& device, const MemoryLimits& limits)
-    : resources_(std::make_unique<DeviceResources>(device, limits)) {}
+RenderDevice::RenderDevice(gpu::Device& device,
+                           const MemoryLimits& limits,
+                           const SceneOptions& scene_options)
+    : resources_(std::make_unique<DeviceResources>(device, limits, scene_options)) {}
 
 RenderDevice::~RenderDevice() = default;
 
@@ -48,8 +50,11 @@ constexpr vk::DeviceSize kGpuSliceBytes = 8U << 20U;
 Renderer::Renderer(RenderDevice& on, const scene::Scene& scene)
     : resources_(loadNow(on.resources(), scene)) {}
 
-Renderer::Renderer(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits)
-    : own_(std::make_unique<RenderDevice>(device, limits)),
+Renderer::Renderer(gpu::Device& device,
+                   const scene::Scene& scene,
+                   const MemoryLimits& limits,
+                   const SceneOptions& scene_options)
+    : own_(std::make_unique<RenderDevice>(device, limits, scene_options)),
       resources_(loadNow(own_->resources(), scene)) {}
 
 Renderer::Renderer(std::unique_ptr<SceneResources> resources) : resources_(std::move(resources)) {}
@@ -80,13 +85,15 @@ uint64_t motionBytes(const scene::Motion& motion) {
 
 } // namespace
 
-uint64_t sceneBytes(const scene::Scene& scene) {
+uint64_t sceneBytes(const scene::Scene& scene, const SceneOptions& options) {
     constexpr uint64_t kVertexBytes = 12 + 20;   // position, surface
     constexpr uint64_t kExtendedBytes = 16;      // second coordinates, colour, tangent
     constexpr uint64_t kTrianglesOfMeshlet = 64; // at least, but for a primitive's last one
-    constexpr uint64_t kMeshletBytes = 64;       // and 8 wherever it is placed
-    constexpr uint64_t kItemBytes = 128;         // a primitive where it is placed
-    constexpr uint64_t kMaterialBytes = 4096;    // with its set of descriptors
+    // And 8 wherever it is placed; with its errors, where there are levels.
+    const uint64_t meshlet_bytes = options.detail_levels ? 104 : 64;
+    const uint64_t levels = options.detail_levels ? 2 : 1; // all coarser ones are one more
+    constexpr uint64_t kItemBytes = 128;                   // a primitive where it is placed
+    constexpr uint64_t kMaterialBytes = 4096;              // with its set of descriptors
     uint64_t bytes = kMaterialBytes * scene.materials.size();
     std::vector<uint64_t> placed_bytes; // of each mesh, wherever it is
     for (const scene::Mesh& mesh : scene.meshes) {
@@ -95,9 +102,10 @@ uint64_t sceneBytes(const scene::Scene& scene) {
             const bool extended =
                 !primitive.uv1.empty() || !primitive.colors.empty() || !primitive.tangents.empty();
             const uint64_t meshlets = primitive.indices.size() / 3 / kTrianglesOfMeshlet + 1;
-            bytes += (kVertexBytes + (extended ? kExtendedBytes : 0)) * primitive.positions.size() +
-                     sizeof(uint32_t) * primitive.indices.size() + kMeshletBytes * meshlets;
-            placed += kItemBytes + 8 * meshlets;
+            bytes +=
+                (kVertexBytes + (extended ? kExtendedBytes : 0)) * primitive.positions.size() +
+                levels * (sizeof(uint32_t) * primitive.indices.size() + meshlet_bytes * meshlets);
+            placed += kItemBytes + 8 * levels * meshlets;
         }
         placed_bytes.push_back(placed);
     }

@@ -11,6 +11,7 @@
 #include "core/visibility.h"
 #include "gpu/device.h"
 #include "render/device/memory_budget.h"
+#include "render/device/scene_options.h"
 #include "render/frame/frame_inputs.h"
 #include "render/lists/list_limits.h"
 #include "scene/scene.h"
@@ -41,7 +42,9 @@ struct PieceResult {
 class RenderDevice {
   public:
     // Throws vk::SystemError. The device outlives it, and it its Renderers.
-    explicit RenderDevice(gpu::Device& device, const MemoryLimits& limits = {});
+    explicit RenderDevice(gpu::Device& device,
+                          const MemoryLimits& limits = {},
+                          const SceneOptions& scene_options = {});
     ~RenderDevice();
     RenderDevice(const RenderDevice&) = delete;
     RenderDevice& operator=(const RenderDevice&) = delete;
@@ -63,7 +66,10 @@ class Renderer {
     // Throws StartupError, vk::SystemError.
     Renderer(RenderDevice& on, const scene::Scene& scene);
     // The same for whoever has one scene alone.
-    Renderer(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits = {});
+    Renderer(gpu::Device& device,
+             const scene::Scene& scene,
+             const MemoryLimits& limits = {},
+             const SceneOptions& scene_options = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
@@ -82,7 +88,7 @@ class Renderer {
 
 // What a scene will take of memory once it is on the device, about: geometry, textures, materials,
 // and what the host keeps of its instances, meshlets and what moves them.
-[[nodiscard]] uint64_t sceneBytes(const scene::Scene& scene);
+[[nodiscard]] uint64_t sceneBytes(const scene::Scene& scene, const SceneOptions& options);
 // kCapacity, where the device's memory or the host's is not enough for a scene.
 [[nodiscard]] Error noMemoryForScene(const std::string& whose);
 

@@ -69,8 +69,8 @@ TEST(GeometryPack, Meshlets_CoverEveryTriangleOnceWithItsWinding) {
 TEST(GeometryPack, ManyTriangles_AreCutIntoPartsThatCoverEachOnce) {
     scene::Scene scene;
     scene.meshes.push_back({"fans", {fan(40, false), fan(900, false), fan(41, true)}});
-    const auto packed = packGeometry(scene, 100);
-    const auto again = packGeometry(scene, 100);
+    const auto packed = packGeometry(scene, {.most_at_once = 100});
+    const auto again = packGeometry(scene, {.most_at_once = 100});
     EXPECT_EQ(packed.indices, again.indices);
     uint32_t next_meshlet = 0;
     for (const size_t p : {2U, 0U, 1U}) { // in the order of vertices

@@ -1,0 +1,74 @@
+#include "render/scene/meshlets.h"
+
+#include <algorithm>
+#include <meshoptimizer.h>
+
+namespace froxel::render {
+namespace {
+
+// Small meshlets cull well and still amortise a draw; meshoptimizer wants a multiple of 4.
+constexpr size_t kMeshletVertices = 96;
+constexpr size_t kMeshletTriangles = 124;
+constexpr float kConeWeight = 0.5F;
+
+} // namespace
+
+LocalTriangles LocalTriangles::of(std::span<const uint32_t> some,
+                                  std::span<const glm::vec3> all_positions) {
+    LocalTriangles local;
+    local.vertices_.assign(some.begin(), some.end());
+    std::ranges::sort(local.vertices_);
+    local.vertices_.erase(std::unique(local.vertices_.begin(), local.vertices_.end()),
+                          local.vertices_.end());
+    local.owned_positions_.reserve(local.vertices_.size());
+    for (const uint32_t vertex : local.vertices_) {
+        local.owned_positions_.push_back(all_positions[vertex]);
+    }
+    local.owned_indices_.reserve(some.size());
+    for (const uint32_t vertex : some) {
+        local.owned_indices_.push_back(static_cast<uint32_t>(
+            std::ranges::lower_bound(local.vertices_, vertex) - local.vertices_.begin()));
+    }
+    local.indices = local.owned_indices_;
+    local.positions = local.owned_positions_;
+    return local;
+}
+
+MeshletList cutIntoMeshlets(const LocalTriangles& local, std::span<const uint32_t> indices) {
+    std::vector<uint32_t> ordered(indices.size());
+    meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(),
+                                local.positions.size());
+    const size_t bound =
+        meshopt_buildMeshletsBound(ordered.size(), kMeshletVertices, kMeshletTriangles);
+    std::vector<meshopt_Meshlet> meshlets(bound);
+    std::vector<uint32_t> vertices(bound * kMeshletVertices);
+    std::vector<unsigned char> triangles(bound * kMeshletTriangles * 3);
+    const float* positions = &local.positions.front().x;
+    const size_t vertex_count = local.positions.size();
+    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(),
+                                          ordered.data(), ordered.size(), positions, vertex_count,
+                                          sizeof(glm::vec3), kMeshletVertices, kMeshletTriangles,
+                                          kConeWeight));
+    MeshletList list;
+    list.indices.reserve(ordered.size());
+    list.meshlets.reserve(meshlets.size());
+    for (const auto& meshlet : meshlets) {
+        const auto bounds = meshopt_computeMeshletBounds(
+            &vertices[meshlet.vertex_offset], &triangles[meshlet.triangle_offset],
+            meshlet.triangle_count, positions, vertex_count, sizeof(glm::vec3));
+        list.meshlets.push_back(
+            {.first_index = static_cast<uint32_t>(list.indices.size()),
+             .index_count = meshlet.triangle_count * 3,
+             .center = {bounds.center[0], bounds.center[1], bounds.center[2]},
+             .radius = bounds.radius,
+             .cone_axis = {bounds.cone_axis[0], bounds.cone_axis[1], bounds.cone_axis[2]},
+             .cone_cutoff = bounds.cone_cutoff});
+        for (size_t i = 0; i < meshlet.triangle_count * 3; ++i) {
+            const unsigned char corner = triangles[meshlet.triangle_offset + i];
+            list.indices.push_back(local.original(vertices[meshlet.vertex_offset + corner]));
+        }
+    }
+    return list;
+}
+
+} // namespace froxel::render
