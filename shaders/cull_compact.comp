@@ -32,7 +32,7 @@ uint countBefore(uint first_block, uint lane) {
 void main() {
     uint i = gl_GlobalInvocationID.x;
     uint lane = gl_LocalInvocationIndex;
-    uint placed = order[i];
+    uint placed = placedAt(i);
     PlacedMeshlet m = meshlets[placed];
     MeshletGroup group = groups[m.draw_group];
     uint before = countBefore(group.first_block, lane);

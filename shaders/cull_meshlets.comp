@@ -1,6 +1,7 @@
-// Which placed meshlets may be seen: inside the frustum and not facing away as a whole. Never
-// leaves out anything visible. One invocation a meshlet; its rank among those of its workgroup
-// keeps order. Where ids are rastered in compute, which needs no order, a list is made at once.
+// Which placed meshlets may be seen: inside the frustum and not facing away as a whole; of a mesh
+// with coarser levels, those of the level that the frame takes. Never leaves out anything visible.
+// One invocation a meshlet; its rank among those of its workgroup keeps order. Where ids are
+// rastered in compute, which needs no order, a list is made at once.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #ifdef FROXEL_LIST
@@ -14,6 +15,9 @@
 #include "lib/visibility_draws.glsl"
 #ifdef FROXEL_LIST
 #include "lib/raster_set.glsl"
+#endif
+#ifdef FROXEL_DETAIL
+#include "lib/detail_choice.glsl"
 #endif
 
 layout(local_size_x = kCullGroup) in;
@@ -66,9 +70,13 @@ shared uint group_first;
 void main() {
     uint i = gl_GlobalInvocationID.x;
     uint lane = gl_LocalInvocationIndex;
-    PlacedMeshlet m = meshlets[order[i]];
+    uint placed = placedAt(i);
+    PlacedMeshlet m = meshlets[placed];
     bool visible = m.index_count > 0;
-    if (visible && keep_all == 0) {
+#ifdef FROXEL_DETAIL
+    visible = visible && drawsDetail(instances[items[m.item].instance], details[placed]);
+#endif
+    if (visible && (cull_flags & kKeepAll) == 0u) {
         VisibleItem item = items[m.item];
         InstanceView view = instances[item.instance];
         visible = !outside(view, m.center, m.radius) && !facesAway(view, m, item.flags);
@@ -87,7 +95,7 @@ void main() {
     }
     barrier();
     if (visible) {
-        visible_meshlets[group_first + scan[lane] - 1u] = order[i];
+        visible_meshlets[group_first + scan[lane] - 1u] = placed;
     }
 #else
     ranks[i] = visible ? scan[lane] - 1u : kCulled;

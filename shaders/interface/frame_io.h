@@ -38,8 +38,9 @@ struct FrameCamera {
     uint width_px;
     uint height_px;
     float orthographic; // 1: all view rays are parallel
+    float geometry_error_px;
 };
-FROXEL_SIZE_ASSERT(FrameCamera, 84);
+FROXEL_SIZE_ASSERT(FrameCamera, 88);
 
 struct Frame {
     FrameCamera camera;
@@ -74,7 +75,7 @@ struct Frame {
     float toon_rim;          // what a rim scatters, as a multiple of what others do
     float toon_rim_width;    // n.v below which a surface is a rim
 };
-FROXEL_SIZE_ASSERT(Frame, 408);
+FROXEL_SIZE_ASSERT(Frame, 412);
 
 // One textured slot's uv_texture = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z).
 struct UvTransform {

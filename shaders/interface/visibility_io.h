@@ -10,6 +10,9 @@ FROXEL_IO_NAMESPACE_BEGIN
 FROXEL_CONST uint kTriangleBits = 7U;
 FROXEL_CONST uint kCullGroup = 256U; // placed meshlets a workgroup of the culling passes
 FROXEL_CONST uint kCulled = 0xffffffffU;
+// Of a culling dispatch: whether nothing is culled, and whether meshlets have an order.
+FROXEL_CONST uint kKeepAll = 1U;
+FROXEL_CONST uint kOrdered = 2U;
 FROXEL_CONST uint kAnyMaterial = 0xffffffffU;
 // Of a dispatch that resolves ids: the last one of the frame also fills empty pixels; depths are
 // those of planes already, kept from a frame before.
@@ -39,6 +42,18 @@ struct PlacedMeshlet {
     uint draw_group;
 };
 FROXEL_SIZE_ASSERT(PlacedMeshlet, 48);
+
+// render::DetailError, and a placed meshlet's two.
+struct DetailError {
+    vec3 center;
+    float radius;
+    float error;
+};
+struct PlacedDetail {
+    DetailError own;
+    DetailError coarser;
+};
+FROXEL_SIZE_ASSERT(PlacedDetail, 40);
 
 // Meshlets drawn with one pipeline and material: a run of workgroups and of draw commands.
 struct MeshletGroup {

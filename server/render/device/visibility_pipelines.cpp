@@ -49,8 +49,12 @@ using Step = VisibilityPipelines::ComputeStep;
 
 gpu::Spirv computeShader(Step step, bool bindless) {
     switch (step) {
+    case Step::kCullDetail:
+        return shaders::cull_meshlets_detail_comp();
     case Step::kCullList:
         return shaders::cull_list_comp();
+    case Step::kCullListDetail:
+        return shaders::cull_list_detail_comp();
     case Step::kMeshlets:
         return bindless ? shaders::raster_meshlets_bindless_comp()
                         : shaders::raster_meshlets_comp();
@@ -64,8 +68,12 @@ gpu::Spirv computeShader(Step step, bool bindless) {
 
 const char* nameOf(Step step) {
     switch (step) {
+    case Step::kCullDetail:
+        return "cull (detail)";
     case Step::kCullList:
         return "cull (list)";
+    case Step::kCullListDetail:
+        return "cull (list, detail)";
     case Step::kMeshlets:
         return "raster meshlets";
     case Step::kBlocks:
@@ -140,6 +148,10 @@ vk::Pipeline VisibilityPipelines::raster(MaterialFlags material_flags) {
     const bool masked = (material_flags & io::kMaterialMask) != 0;
     const MaterialFlags key = masked ? material_flags : 0U;
     return *raster_.findOrMake(key, [=, this] { return makeRaster(key); });
+}
+
+vk::Pipeline VisibilityPipelines::cull(bool detail) {
+    return detail ? compute(ComputeStep::kCullDetail) : *cull_;
 }
 
 vk::Pipeline VisibilityPipelines::gbuffer(const VariantKey& key) {

@@ -12,8 +12,9 @@ namespace froxel::render {
 
 class VisibilityPipelines {
   public:
-    // Of set 2: geometry and draws, 13; ids, G-buffer; what compute rasters by, 4; its depth, ids.
-    static constexpr uint32_t kBindings = 21;
+    // Of set 2: geometry and draws, 13; ids, G-buffer; what compute rasters by, 4; its depth, ids;
+    // details of meshlets.
+    static constexpr uint32_t kBindings = 22;
     static constexpr vk::Format kIdFormat = vk::Format::eR32Uint;
 
     [[nodiscard]] static constexpr vk::DescriptorType bindingType(uint32_t binding) {
@@ -36,10 +37,18 @@ class VisibilityPipelines {
     // From ids to the G-buffer, and from ids to radiance.
     [[nodiscard]] vk::Pipeline gbuffer(const VariantKey& key);
     [[nodiscard]] vk::Pipeline shade(const VariantKey& key);
-    [[nodiscard]] vk::Pipeline cull() const { return *cull_; }
+    // detail: of meshes with coarser levels.
+    [[nodiscard]] vk::Pipeline cull(bool detail);
     [[nodiscard]] vk::Pipeline compact() const { return *compact_; }
     // Ids rastered in compute (compute_raster.h). material_flags: of masked materials; 0: opaque.
-    enum class ComputeStep : uint8_t { kCullList, kMeshlets, kBlocks, kUnpack };
+    enum class ComputeStep : uint8_t {
+        kCullDetail,
+        kCullList,
+        kCullListDetail,
+        kMeshlets,
+        kBlocks,
+        kUnpack
+    };
     [[nodiscard]] vk::Pipeline compute(ComputeStep step, MaterialFlags material_flags = 0);
 
     // The variants kept that shade.

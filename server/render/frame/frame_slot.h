@@ -127,6 +127,7 @@ struct FrameSlot {
     vk::raii::DescriptorSet screen_set{nullptr};
     std::vector<vk::raii::BufferView> texel_views; // of the frame set's texel buffers
     std::shared_ptr<MaterialSet> material_set;     // of the frame last recorded
+    VisibilityScene* visibility = nullptr;         // of that; null: none was drawn by ids
     std::unique_ptr<AssignSlot> assignment;        // null: no frame asked for it yet
     bool device_lists = false; // the frame last recorded had its lists made on the device
     bool stale = false;        // an older frame was drawn again after this one

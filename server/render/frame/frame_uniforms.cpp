@@ -100,6 +100,7 @@ io::Frame makeFrameUniforms(const settings::ViewSettings& settings,
     frame.camera.ray_scale = {2.0 / (settings.size.width_px * projection.clip_scale.x),
                               2.0 / (settings.size.height_px * projection.clip_scale.y)};
     frame.camera.ray_offset = (glm::dvec2(-1.0) - projection.clip_offset) / projection.clip_scale;
+    frame.camera.geometry_error_px = settings.geometry_error_px;
     frame.camera.width_px = settings.size.width_px;
     frame.camera.height_px = settings.size.height_px;
     frame.tile_width_px = settings.size.width_px;

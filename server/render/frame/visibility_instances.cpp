@@ -45,6 +45,10 @@ void orderMeshlets(const VisibilityScene& visibility,
                    std::span<const InstanceRows> rows,
                    std::vector<uint32_t>& order) {
     const auto& placed = visibility.placed;
+    if (!visibility.ordered()) {
+        order.clear();
+        return;
+    }
     order.resize(placed.size());
     for (const auto& group : visibility.groups) {
         const size_t first = size_t{group.blocks.first_block} * io::kCullGroup;

@@ -17,7 +17,8 @@ void placeInstances(std::span<const glm::dmat4> world_from_objects,
                     std::vector<io::InstanceView>& out);
 
 // Indices of the placed meshlets, each group's near ones first: what lies behind is spared by the
-// depth test. In buckets of distance, and in their own order inside one. Pure.
+// depth test. In buckets of distance, and in their own order inside one. None where
+// VisibilityScene::ordered() says so. Pure.
 void orderMeshlets(const VisibilityScene& visibility,
                    std::span<const InstanceRows> rows,
                    std::vector<uint32_t>& order);

@@ -1,5 +1,6 @@
 #include "render/scene/material_set.h"
 
+#include "interface/constants.h"
 #include "render/scene/scene_resources.h"
 
 #include <utility>
@@ -16,19 +17,30 @@ SurfaceNeeds needsOf(const SceneResources& scene, const std::vector<DrawItem>& i
     return needs;
 }
 
+MaterialFlags solidFlagsOf(const std::vector<DrawItem>& items) {
+    MaterialFlags flags = 0;
+    for (const DrawItem& item : items) {
+        const bool solid = (item.material_flags & io::kMaterialBlend) == 0;
+        flags |= solid ? item.material_flags : 0;
+    }
+    return flags;
+}
+
 } // namespace
 
 MaterialSet::MaterialSet(SceneResources& scene, std::vector<DrawItem> items_in)
-    : items(std::move(items_in)), needs(needsOf(scene, items)),
-      visibility_unusable(VisibilityScene::unusable(scene, items)), scene_(scene) {}
+    : items(std::move(items_in)), needs(needsOf(scene, items)), solid_flags(solidFlagsOf(items)),
+      scene_(scene), unusable_{VisibilityScene::unusable(scene, items, Detail::kExact),
+                               VisibilityScene::unusable(scene, items, Detail::kLevels)} {}
 
-VisibilityScene& MaterialSet::visibility() {
-    if (!visibility_) {
+VisibilityScene& MaterialSet::visibility(Detail detail) {
+    auto& visibility = visibility_[static_cast<size_t>(detail)];
+    if (!visibility) {
         gpu::Uploader uploader(scene_.shared.device, kStagingBytes);
-        visibility_ = std::make_unique<VisibilityScene>(scene_, items, uploader);
+        visibility = std::make_unique<VisibilityScene>(scene_, items, detail, uploader);
         uploader.finish(scene_.shared.timeline);
     }
-    return *visibility_;
+    return *visibility;
 }
 
 } // namespace froxel::render

@@ -6,6 +6,7 @@
 #include "render/scene/scene_needs.h"
 #include "render/scene/visibility_scene.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -30,14 +31,19 @@ class MaterialSet {
     // As they stand at time 0, where the scene moves; a frame has its ScenePose.
     const std::vector<DrawItem> items;
     const SurfaceNeeds needs;
-    const std::string visibility_unusable; // why; empty: visibility passes can draw it
+    const MaterialFlags solid_flags; // of any item that does not blend
+    // Why; empty: visibility passes can draw it.
+    [[nodiscard]] const std::string& visibilityUnusable(Detail detail = Detail::kExact) const {
+        return unusable_[static_cast<size_t>(detail)];
+    }
 
-    // Made at the first call; visibility_unusable is empty. Throws vk::SystemError.
-    [[nodiscard]] VisibilityScene& visibility();
+    // Made at the first call; visibilityUnusable() is empty. Throws vk::SystemError.
+    [[nodiscard]] VisibilityScene& visibility(Detail detail = Detail::kExact);
 
   private:
     SceneResources& scene_;
-    std::unique_ptr<VisibilityScene> visibility_;
+    const std::array<std::string, 2> unusable_; // of each Detail
+    std::array<std::unique_ptr<VisibilityScene>, 2> visibility_;
 };
 
 } // namespace froxel::render

@@ -42,7 +42,8 @@ auto groupKey(const DrawItem& item) {
 // Placed meshlets in the order of their draws, groups filled up to whole workgroups.
 class Placer {
   public:
-    Placer(const SceneResources& scene, std::span<const DrawItem> drawn) : scene_(scene) {
+    Placer(const SceneResources& scene, std::span<const DrawItem> drawn, Detail detail)
+        : scene_(scene), with_levels_(detail == Detail::kLevels) {
         std::vector<uint32_t> order;
         for (uint32_t i = 0; i < drawn.size(); ++i) {
             if (solid(drawn[i])) {
@@ -68,6 +69,7 @@ class Placer {
 
     std::vector<io::VisibleItem> items;
     std::vector<io::PlacedMeshlet> meshlets;
+    std::vector<io::PlacedDetail> details; // of each, with levels
     std::vector<VisibilityGroup> groups;
     uint32_t triangle_count = 0;
 
@@ -84,6 +86,9 @@ class Placer {
             filler.draw_group = static_cast<uint32_t>(groups.size()) - 1;
             meshlets.push_back(filler);
         }
+        if (with_levels_) {
+            details.resize(meshlets.size());
+        }
         auto& blocks = groups.back().blocks;
         blocks.block_count = blockCount() - blocks.first_block;
     }
@@ -93,8 +98,15 @@ class Placer {
         items.push_back({item.instance, static_cast<uint32_t>(primitive.vertex_offset),
                          primitive.material, featuresOf(item.material_flags),
                          texturesOf(item.material_flags)});
-        for (uint32_t i = 0; i < primitive.meshlet_count; ++i) {
-            const Meshlet& m = scene_.meshlets[primitive.first_meshlet + i];
+        place(item, item_index, primitive.first_meshlet, primitive.meshlet_count);
+        if (with_levels_ && !item.bends) {
+            place(item, item_index, primitive.first_coarser_meshlet,
+                  primitive.coarser_meshlet_count);
+        }
+    }
+    void place(const DrawItem& item, uint32_t item_index, uint32_t first, uint32_t count) {
+        for (uint32_t i = first; i < first + count; ++i) {
+            const Meshlet& m = scene_.meshlets[i];
             FROXEL_ASSERT(m.index_count <= 3U << io::kTriangleBits,
                           "an id has bits for every triangle of a meshlet");
             meshlets.push_back({item_index, m.first_index, m.index_count,
@@ -102,11 +114,22 @@ class Placer {
                                 item.bends ? 1.0F : m.cone_cutoff, m.cone_axis,
                                 static_cast<uint32_t>(groups.size()) - 1});
             triangle_count += m.index_count / 3;
+            if (with_levels_) {
+                details.push_back(item.bends ? alwaysDrawn() : placedDetail(scene_.details[i]));
+            }
         }
-        groups.back().meshlet_count += primitive.meshlet_count;
+        groups.back().meshlet_count += count;
+    }
+    static io::PlacedDetail alwaysDrawn() { return placedDetail({}); }
+    static io::PlacedDetail placedDetail(const MeshletDetail& detail) {
+        const auto of = [](const DetailError& e) {
+            return io::DetailError{e.center, e.radius, e.error};
+        };
+        return {of(detail.own), of(detail.coarser)};
     }
 
     const SceneResources& scene_;
+    const bool with_levels_;
 };
 
 template <class T>
@@ -124,7 +147,8 @@ gpu::Buffer uploadTable(gpu::MemoryArena& arena,
 } // namespace
 
 std::string VisibilityScene::unusable(const SceneResources& scene,
-                                      std::span<const DrawItem> drawn) {
+                                      std::span<const DrawItem> drawn,
+                                      Detail detail) {
     const auto& traits = scene.shared.device.traits();
     if (!traits.visibility_lacks.empty()) {
         return "the device lacks " + traits.visibility_lacks;
@@ -132,7 +156,11 @@ std::string VisibilityScene::unusable(const SceneResources& scene,
     size_t meshlet_count = 0;
     for (const auto& item : drawn) {
         // Groups fill up workgroups: at most one a material and winding.
-        meshlet_count += solid(item) ? item.primitive.meshlet_count : 0;
+        const auto& primitive = item.primitive;
+        const bool levels = detail == Detail::kLevels && !item.bends;
+        meshlet_count +=
+            solid(item) ? primitive.meshlet_count + (levels ? primitive.coarser_meshlet_count : 0)
+                        : 0;
     }
     meshlet_count += size_t{io::kCullGroup} * 4 * (scene.material_uniforms.size() + 1);
     if (meshlet_count > kMostMeshlets) {
@@ -143,10 +171,11 @@ std::string VisibilityScene::unusable(const SceneResources& scene,
 
 VisibilityScene::VisibilityScene(SceneResources& scene,
                                  std::span<const DrawItem> drawn,
+                                 Detail detail,
                                  gpu::Uploader& uploader)
     : arena(scene.shared.device), pipelines(scene.visibilityPipelines()),
       device_(scene.shared.device) {
-    Placer placer(scene, drawn);
+    Placer placer(scene, drawn, detail);
     groups = std::move(placer.groups);
     placed = std::move(placer.meshlets);
     triangle_count = placer.triangle_count;
@@ -166,6 +195,9 @@ VisibilityScene::VisibilityScene(SceneResources& scene,
 
     items = uploadTable(arena, uploader, placer.items, "visible items");
     meshlets = uploadTable(arena, uploader, placed, "placed meshlets");
+    if (detail == Detail::kLevels) {
+        details = uploadTable(arena, uploader, std::move(placer.details), "details of meshlets");
+    }
     group_buffer = uploadTable(arena, uploader, blocks, "meshlet groups");
     materials = uploadTable(arena, uploader, scene.material_uniforms, "materials (storage)");
     const auto scratch = [&](size_t bytes, vk::BufferUsageFlags usage, const char* name) {
@@ -238,6 +270,7 @@ void VisibilityFrame::write(const Bindings& bindings) {
     buffers[16] = raster != nullptr ? whole(raster->counts) : none;
     buffers[17] = raster != nullptr ? whole(raster->meshlets) : none;
     buffers[18] = raster != nullptr ? whole(raster->large) : none;
+    buffers[21] = *s.details.handle ? whole(s.details) : none;
     std::array<vk::DescriptorImageInfo, VisibilityPipelines::kBindings> images;
     const auto image = [&](uint32_t binding, vk::ImageView view) {
         images[binding] = {.imageView = view, .imageLayout = vk::ImageLayout::eGeneral};

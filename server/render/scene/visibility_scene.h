@@ -30,28 +30,36 @@ struct VisibilityGroup {
     uint32_t meshlet_count = 0;
 };
 
+// Which meshlets there are: those of the scene's triangles, or of its coarser levels, too.
+enum class Detail : uint8_t { kExact, kLevels };
+
 class VisibilityScene {
   public:
+    static constexpr size_t kMostOrdered = 65'536;
     // Throws vk::SystemError.
     VisibilityScene(SceneResources& scene,
                     std::span<const DrawItem> drawn,
+                    Detail detail,
                     gpu::Uploader& uploader);
 
     // Empty when visibility passes can draw them on the device, else why not.
-    [[nodiscard]] static std::string unusable(const SceneResources& scene,
-                                              std::span<const DrawItem> drawn);
+    [[nodiscard]] static std::string
+    unusable(const SceneResources& scene, std::span<const DrawItem> drawn, Detail detail);
 
     std::vector<VisibilityGroup> groups;
     std::vector<uint32_t> materials_in_use;
     std::vector<io::PlacedMeshlet> placed; // the host's copy, for ordering them
+    // Whether frames order them, near ones first: of more it would take too long.
+    [[nodiscard]] bool ordered() const { return placed.size() <= kMostOrdered; }
     std::vector<uint32_t> item_instances;
     uint32_t block_count = 0;
     MaterialFlags material_flags = 0; // of any solid item
-    uint32_t triangle_count = 0;
+    uint32_t triangle_count = 0;      // of all meshlets
 
     gpu::MemoryArena arena;
     gpu::Buffer items;
     gpu::Buffer meshlets;
+    gpu::Buffer details; // with levels; else none
     gpu::Buffer group_buffer;
     gpu::Buffer materials;
     // Written by culling; frames of all viewers follow each other on one queue.

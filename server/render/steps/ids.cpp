@@ -85,7 +85,7 @@ class Ids final : public Step {
   private:
     Result<void> build(const StepInputs& inputs, const FramePlan& frame) override {
         in_compute_ = frame.geometry == SolidGeometry::kComputeIds;
-        visible_ = &inputs.pose.materialSet()->visibility();
+        visible_ = &inputs.pose.materialSet()->visibility(scene_.detailOf(inputs.settings));
         return {};
     }
     [[nodiscard]] RegionCost cost(const FrameCosts& costs) const {
@@ -100,7 +100,7 @@ class Ids final : public Step {
 };
 
 void Ids::prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) {
-    auto& visible = slot.material_set->visibility();
+    auto& visible = *slot.visibility;
     const auto& targets = *slot.targets;
     const auto& offsets = slot.offsets;
     slot.stored.findOrMake<VisibilityFrame>(scene_.shared.device, visible)
@@ -109,8 +109,10 @@ void Ids::prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) {
                 .vertices = vertexBuffers(scene_, slot),
                 .instances = {slot.upload.buffer(), offsets.instances,
                               scene_.instances.size() * sizeof(io::InstanceView)},
-                .order = {slot.upload.buffer(), offsets.meshlet_order,
-                          visible.placed.size() * sizeof(uint32_t)},
+                .order = visible.ordered()
+                             ? vk::DescriptorBufferInfo{slot.upload.buffer(), offsets.meshlet_order,
+                                                        visible.placed.size() * sizeof(uint32_t)}
+                             : vk::DescriptorBufferInfo{.range = VK_WHOLE_SIZE},
                 .ids = *targets.ids.view,
                 .gbuffer = targets.needs.gbuffer ? *targets.gbuffer.view : *targets.ids.view,
                 .raster = in_compute_ ? &visible.computeRaster() : nullptr,

@@ -45,9 +45,9 @@ namespace froxel::render {
 // Flags of all materials that the forward shader shades from ids; 0: the rasteriser draws them, and
 // the draw list has theirs.
 [[nodiscard]] inline MaterialFlags shadedById(const StepInputs& inputs, const FramePlan& frame) {
-    return frame.byIds() ? inputs.pose.materialSet()->visibility().material_flags &
-                               ~frame.forward_unused_material_flags
-                         : 0;
+    return frame.byIds()
+               ? inputs.pose.materialSet()->solid_flags & ~frame.forward_unused_material_flags
+               : 0;
 }
 
 } // namespace froxel::render

@@ -71,9 +71,11 @@ void recordRasterSpoil(const FrameContext& frame) {
 
 void recordRasterCull(const FrameContext& frame, bool culls) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCull);
-    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(RasterStep::kCullList));
-    pushVisibilityWords(frame,
-                        {culls ? 0U : 1U, static_cast<uint32_t>(frame.visibility->groups.size())});
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(
+                                     hasLevels(*frame.visibility) ? RasterStep::kCullListDetail
+                                                                  : RasterStep::kCullList));
+    pushVisibilityWords(
+        frame, {cullFlags(frame, culls), static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 

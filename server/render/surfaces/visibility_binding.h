@@ -23,4 +23,13 @@ inline void pushVisibilityWords(const FrameContext& frame, const std::array<uint
                                            vk::ShaderStageFlagBits::eCompute, 0, words);
 }
 
+// Of a culling dispatch.
+inline uint32_t cullFlags(const FrameContext& frame, bool culls) {
+    return (culls ? 0U : io::kKeepAll) | (frame.visibility->ordered() ? io::kOrdered : 0U);
+}
+
+inline bool hasLevels(const VisibilityScene& scene) {
+    return *scene.details.handle != vk::Buffer{};
+}
+
 } // namespace froxel::render

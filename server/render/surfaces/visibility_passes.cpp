@@ -107,16 +107,17 @@ void recordEmptyDraws(const FrameContext& frame) {
 
 void recordCull(const FrameContext& frame, bool culls) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCull);
-    bindVisibilityCompute(frame, frame.visibility->pipelines.cull());
-    pushVisibilityWords(frame,
-                        {culls ? 0U : 1U, static_cast<uint32_t>(frame.visibility->groups.size())});
+    bindVisibilityCompute(frame, frame.visibility->pipelines.cull(hasLevels(*frame.visibility)));
+    pushVisibilityWords(
+        frame, {cullFlags(frame, culls), static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 
 void recordCompact(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCompact);
     bindVisibilityCompute(frame, frame.visibility->pipelines.compact());
-    pushVisibilityWords(frame, {0, static_cast<uint32_t>(frame.visibility->groups.size())});
+    pushVisibilityWords(
+        frame, {cullFlags(frame, true), static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 

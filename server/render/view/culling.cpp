@@ -15,6 +15,7 @@ bool byIds(GeometryPath path) {
 }
 
 bool choosesIds(const FrameInputs& inputs, const SceneResources& scene, const ScenePose& pose) {
+    const Detail detail = scene.detailOf(inputs.settings);
     using settings::LightingStage;
     const auto& traits = scene.shared.device.traits();
     if (inputs.settings.debug.view == settings::DebugView::kOverdraw) {
@@ -34,8 +35,8 @@ bool choosesIds(const FrameInputs& inputs, const SceneResources& scene, const Sc
             : !second_target && (byIds(inputs.geometry) || pays) &&
                   (stage != LightingStage::kFragment ||
                    !drawsLayers(inputs.settings, pose.materialSet()->needs.layers));
-    return wanted && pose.materialSet()->visibility_unusable.empty() && pose.windsAsAtStart() &&
-           !pose.materialSet()->visibility().groups.empty();
+    return wanted && pose.materialSet()->visibilityUnusable(detail).empty() &&
+           pose.windsAsAtStart() && !pose.materialSet()->visibility(detail).groups.empty();
 }
 
 bool choosesComputeRaster(const FrameInputs& inputs,
@@ -44,7 +45,8 @@ bool choosesComputeRaster(const FrameInputs& inputs,
     const bool wanted =
         inputs.geometry == GeometryPath::kComputeRaster ||
         (inputs.geometry == GeometryPath::kAuto && !scene.shared.device.traits().is_cpu);
-    return wanted && pose.materialSet()->visibility().compute_unusable.empty();
+    const Detail detail = scene.detailOf(inputs.settings);
+    return wanted && pose.materialSet()->visibility(detail).compute_unusable.empty();
 }
 
 } // namespace
@@ -54,12 +56,14 @@ bool choosesComputeRaster(const FrameInputs& inputs,
 void Culling::start(const FrameInputs& inputs,
                     const ScenePose& pose,
                     const ViewProjection& projection) {
+    detail_ = scene_.detailOf(inputs.settings);
     geometry_ = !choosesIds(inputs, scene_, pose)            ? SolidGeometry::kRaster
                 : choosesComputeRaster(inputs, scene_, pose) ? SolidGeometry::kComputeIds
                                                              : SolidGeometry::kIds;
     culls_ = {.camera = inputs.settings.camera,
               .size = inputs.settings.size,
-              .geometry_error_px = scene_.details.empty() ? 0 : inputs.settings.geometry_error_px,
+              .geometry_error_px =
+                  detail_ == Detail::kExact ? 0 : inputs.settings.geometry_error_px,
               .pose = pose.number(),
               .by_ids = geometry_ != SolidGeometry::kRaster,
               .order = inputs.settings.transparency == settings::Transparency::kSorted
@@ -81,7 +85,7 @@ void Culling::build(const ScenePose& pose, const ViewProjection& projection) {
                   scene_.shared.device.traits().is_cpu, !by_ids, order, draws_);
     if (by_ids) {
         placeInstances(pose.instances(), camera, draws_.rows, instances_);
-        orderMeshlets(pose.materialSet()->visibility(), draws_.rows, meshlet_order_);
+        orderMeshlets(pose.materialSet()->visibility(detail_), draws_.rows, meshlet_order_);
     }
 }
 

@@ -71,7 +71,7 @@ bool HostWork::prepassPays() const {
 bool HostWork::layersVisible() const {
     const auto has = [](MaterialFlags flags) { return (flags & io::kMaterialLayers) != 0; };
     return culling_.geometry() != SolidGeometry::kRaster
-               ? has(pose_.materialSet()->visibility().material_flags)
+               ? has(pose_.materialSet()->solid_flags)
                : std::ranges::any_of(culling_.draws().solid, has, &DrawGroup::material_flags);
 }
 

@@ -99,7 +99,8 @@ peelable(const FrameInputs& inputs, const SceneResources& scene, const MaterialS
 
 Result<void>
 canDraw(const FrameInputs& inputs, const SceneResources& scene, MaterialSet& material_set) {
-    if (const auto& why = material_set.visibility_unusable;
+    const Detail detail = scene.detailOf(inputs.settings);
+    if (const auto& why = material_set.visibilityUnusable(detail);
         !why.empty() && needsVisibility(inputs)) {
         return Error{ErrorCode::kUnsupported, "lighting: compute is not available for renderer " +
                                                   rendererName(inputs) + ", since " + why +
@@ -123,9 +124,9 @@ canDraw(const FrameInputs& inputs, const SceneResources& scene, MaterialSet& mat
         }
     }
     if (inputs.geometry == GeometryPath::kComputeRaster &&
-        !material_set.visibility().compute_unusable.empty()) {
+        !material_set.visibility(detail).compute_unusable.empty()) {
         return Error{ErrorCode::kUnsupported, "ids cannot be rasterised in compute, because " +
-                                                  material_set.visibility().compute_unusable};
+                                                  material_set.visibility(detail).compute_unusable};
     }
     return {};
 }

@@ -393,6 +393,11 @@ Result<RenderedFrame> ViewRenderer::collect() {
 
 Result<Visibility> ViewRenderer::readVisibility(const scene::Scene& scene) {
     FROXEL_ASSERT(impl_->maker.targets(), "readVisibility needs a frame");
+    if (impl_->maker.detail() != Detail::kExact) {
+        return Error{ErrorCode::kUnsupported,
+                     "visible triangles have no names in a picture with a geometry error: those of "
+                     "coarser levels are not in the scene"};
+    }
     try {
         return copyVisibility(impl_->scene, impl_->maker.materialSet(), *impl_->maker.targets(),
                               scene);

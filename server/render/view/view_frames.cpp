@@ -194,6 +194,8 @@ Result<void> ViewFrames::recordBuilt(FrameSlot& slot,
     }
     prepareTargets(slot, plan, size);
     slot.material_set = host_work_.pose().materialSet();
+    slot.visibility =
+        plan.byIds() ? &slot.material_set->visibility(scene_.detailOf(inputs.settings)) : nullptr;
     host_work_.upload(slot, steps_.ofFrame());
     const Seconds fine = partOf(timeOf(prices_), limits.piece * piece_share_);
     const Seconds piece = std::max(limits.piece, fine);
@@ -201,7 +203,7 @@ Result<void> ViewFrames::recordBuilt(FrameSlot& slot,
                  .slot = slot,
                  .plan = plan,
                  .draws = host_work_.draws(),
-                 .visibility = plan.byIds() ? &slot.material_set->visibility() : nullptr,
+                 .visibility = slot.visibility,
                  .steps = steps_.ofFrame(),
                  .pieces = slot.pieces,
                  .costs = costs,

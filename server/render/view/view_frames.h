@@ -54,6 +54,9 @@ class ViewFrames {
     // Of the frame recorded last; null: none, or none of that.
     [[nodiscard]] const ViewTargets* targets() const { return targets_.get(); }
     [[nodiscard]] MaterialSet& materialSet() const { return *host_work_.pose().materialSet(); }
+    [[nodiscard]] Detail detail() const {
+        return scene_.detailOf(host_work_.stepInputs().settings);
+    }
     [[nodiscard]] const ViewSteps& steps() const { return steps_; }
     // Of the passes of the frame begun last.
     [[nodiscard]] const std::vector<PassEstimate>& prices() const { return prices_; }

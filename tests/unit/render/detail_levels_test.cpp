@@ -1,5 +1,6 @@
 #include "render/scene/detail_levels.h"
 #include "render/scene/surface_distance.h"
+#include "support/ball.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <random>
 #include <set>
 #include <string>
@@ -15,8 +15,6 @@
 
 namespace froxel::render {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 struct Mesh {
     std::vector<glm::vec3> positions;
@@ -40,41 +38,12 @@ float cube(const glm::vec3& way) {
     return 1 / std::max({size.x, size.y, size.z});
 }
 
-// A closed ball; each of its positions once.
 Mesh ball(uint32_t rings, const Bump& bump, const glm::vec3& center = glm::vec3(0)) {
-    Mesh mesh;
-    const uint32_t around = 2 * rings;
-    const auto add = [&](uint32_t v, uint32_t u) {
-        const float theta = kPi * static_cast<float>(v) / static_cast<float>(rings);
-        const float phi = 2 * kPi * static_cast<float>(u) / static_cast<float>(around);
-        const glm::vec3 way(std::sin(theta) * std::cos(phi), std::cos(theta),
-                            std::sin(theta) * std::sin(phi));
-        mesh.positions.push_back(center + way * bump(way));
-    };
-    add(0, 0);
-    for (uint32_t v = 1; v < rings; ++v) {
-        for (uint32_t u = 0; u < around; ++u) {
-            add(v, u);
-        }
+    test::Ball made = test::makeBall(rings, bump);
+    for (glm::vec3& p : made.positions) {
+        p += center;
     }
-    add(rings, 0);
-    const auto at = [&](uint32_t v, uint32_t u) {
-        return v == 0       ? 0
-               : v == rings ? static_cast<uint32_t>(mesh.positions.size()) - 1
-                            : 1 + (v - 1) * around + u % around;
-    };
-    for (uint32_t v = 0; v < rings; ++v) {
-        for (uint32_t u = 0; u < around; ++u) {
-            if (v > 0) {
-                mesh.indices.insert(mesh.indices.end(), {at(v, u), at(v, u + 1), at(v + 1, u)});
-            }
-            if (v + 1 < rings) {
-                mesh.indices.insert(mesh.indices.end(),
-                                    {at(v, u + 1), at(v + 1, u + 1), at(v + 1, u)});
-            }
-        }
-    }
-    return mesh;
+    return {std::move(made.positions), std::move(made.indices)};
 }
 
 // A square with a border.

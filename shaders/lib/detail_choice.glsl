@@ -1,0 +1,42 @@
+// Which meshlets of a mesh with coarser levels a view takes: as render::DetailChoice.
+layout(set = 2, binding = 21, scalar) readonly buffer DetailBlock { PlacedDetail details[]; };
+
+// No less than the largest scale of the instance, and that where axes stay orthogonal.
+float largestScale(InstanceView view) {
+    vec3 x = vec3(view.row0.x, view.row1.x, view.row2.x);
+    vec3 y = vec3(view.row0.y, view.row1.y, view.row2.y);
+    vec3 z = vec3(view.row0.z, view.row1.z, view.row2.z);
+    float xy = abs(dot(x, y));
+    float yz = abs(dot(y, z));
+    float zx = abs(dot(z, x));
+    return sqrt(max(max(dot(x, x) + xy + zx, dot(y, y) + xy + yz), dot(z, z) + yz + zx));
+}
+
+// A point at depth z, whose ray is o times as long, moves by no more than pixels * o / z for each
+// metre that it is moved.
+bool isEnough(InstanceView view, float scale, DetailError detail) {
+    if (detail.error == 0.0) {
+        return true;
+    }
+    vec2 half_px = 0.5 * vec2(frame.camera.width_px, frame.camera.height_px);
+    vec2 pixels = abs(frame.camera.clip_scale) * half_px;
+    float error_px = max(pixels.x, pixels.y) * scale * detail.error;
+    if (frame.camera.orthographic != 0.0 || isinf(error_px)) {
+        return error_px <= frame.camera.geometry_error_px;
+    }
+    vec4 center = vec4(detail.center, 1.0);
+    vec3 at = vec3(dot(view.row0, center), dot(view.row1, center), dot(view.row2, center));
+    float reach = detail.radius * scale;
+    float depth = -at.z - reach;
+    if (!(depth >= frame.camera.clip_z.x)) { // the near plane
+        return false;
+    }
+    vec2 corner = (1.0 + abs(frame.camera.clip_offset)) / frame.camera.clip_scale;
+    float oblique = min((length(at) + reach) / depth, sqrt(1.0 + dot(corner, corner)));
+    return error_px * oblique <= frame.camera.geometry_error_px * depth;
+}
+
+bool drawsDetail(InstanceView view, PlacedDetail detail) {
+    float scale = largestScale(view);
+    return isEnough(view, scale, detail.own) && !isEnough(view, scale, detail.coarser);
+}
