@@ -19,8 +19,10 @@ constexpr float kMostKept = 0.8F;
 
 // Errors that are a smaller part of an edge are not told apart: what is so flat is cheap anyway.
 constexpr float kErrorOfEdge = 1.0F / 64;
-// For what lies between the points at which distances are taken.
-constexpr float kMargin = 1.5F;
+// For what lies between the points at which distances are taken: the mesh's vertices, which are
+// dense on all levels but the first of them.
+constexpr float kMargin = 1.1F;
+constexpr float kMarginOfFinest = 1.5F;
 // A vertex of the mesh is given to a triangle that is so near to it, or else to the nearest one.
 constexpr float kNearOfEdge = 1.0F / 16;
 
@@ -320,8 +322,10 @@ class Builder {
             }
         }
         // Between its vertices the mesh itself matters as long as its edges are as long as these.
+        bool has_exact = false;
         for (const uint32_t i : group) {
             if (out_.details[current_[i]].own.error == 0) {
+                has_exact = true;
                 eachEdgeMiddle(indicesOf(current_[i]), [&](const glm::vec3& middle) {
                     const auto found = surface.nearest(middle, most, triangle);
                     most = std::max(most, found.distance);
@@ -335,7 +339,7 @@ class Builder {
             most = std::max(most, found.distance);
             exact = found.triangle;
         });
-        return most * kMargin;
+        return most * (has_exact ? kMarginOfFinest : kMargin);
     }
     // False: nothing more can be made coarser.
     bool addLevel() {
