@@ -65,6 +65,19 @@ bool facesAway(InstanceView view, PlacedMeshlet m, uint flags) {
 shared uint scan[kCullGroup];
 #ifdef FROXEL_LIST
 shared uint group_first;
+
+// Makes room for so many in the list, of which each batch has its part; where it begins.
+uint appendVisible(uint count) {
+    uint first = atomicAdd(batches[0].meshlets_of_all, count);
+    uint most = batches[0].most;
+    for (uint at = first; at < first + count;) {
+        uint batch = at / most;
+        uint end = min((batch + 1u) * most, first + count);
+        atomicAdd(batches[batch].meshlets, end - at);
+        at = end;
+    }
+    return first;
+}
 #endif
 
 void main() {
@@ -91,7 +104,7 @@ void main() {
     }
 #ifdef FROXEL_LIST
     if (lane == kCullGroup - 1) {
-        group_first = atomicAdd(raster.meshlets, scan[lane]);
+        group_first = appendVisible(scan[lane]);
     }
     barrier();
     if (visible) {

@@ -93,8 +93,8 @@ void drawLarge(LargeTriangle large, uint of_box) {
 }
 
 void main() {
-    uint triangle_count = uint(raster.large >> int(kRasterBlockBits));
-    uint64_t block_count = raster.large & ((uint64_t(1) << int(kRasterBlockBits)) - 1);
+    uint triangle_count = uint(batches[batch].large >> int(kRasterBlockBits));
+    uint64_t block_count = batches[batch].large & ((uint64_t(1) << int(kRasterBlockBits)) - 1);
     uint64_t run = uint64_t(gl_WorkGroupID.x) * kRasterRun;
     for (; run < block_count; run += gl_NumWorkGroups.x * kRasterRun) {
         uint i = triangleOfBlock(run, triangle_count);

@@ -36,7 +36,8 @@ shared uint rows_until[kRasterGroup]; // of this triangle and those before it
 void leaveToBlocks(uint id, ivec2 low, ivec2 high) {
     uvec2 blocks = (uvec2(high - low) + kRasterBlock) / kRasterBlock;
     uint64_t count = uint64_t(blocks.x * blocks.y);
-    uint64_t before = atomicAdd(raster.large, (uint64_t(1) << int(kRasterBlockBits)) | count);
+    uint64_t before =
+        atomicAdd(batches[batch].large, (uint64_t(1) << int(kRasterBlockBits)) | count);
     uint64_t first_block = before & ((uint64_t(1) << int(kRasterBlockBits)) - 1);
     uint box = uint(low.x) | (uint(low.y) << 12) | (blocks.x << 24);
     large_triangles[uint(before >> int(kRasterBlockBits))] = LargeTriangle(first_block, id, box);
@@ -142,7 +143,7 @@ uint triangleOfRow(uint row) {
 }
 
 void main() {
-    uint meshlet = visible_meshlets[gl_WorkGroupID.x];
+    uint meshlet = visible_meshlets[batches[batch].first + gl_WorkGroupID.x];
     PlacedMeshlet placed = meshlets[meshlet];
     VisibleItem item = items[placed.item];
     if (!drawsItem(item)) {

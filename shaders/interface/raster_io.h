@@ -18,19 +18,23 @@ FROXEL_CONST uint kRasterBlockGroup = 64U; // invocations a block
 FROXEL_CONST uint kRasterBlockGroups = 4096U; // workgroups, which take runs of blocks in turns
 FROXEL_CONST uint kRasterRun = 8U;            // blocks
 
-// RasterCounts::large: blocks in the low bits, large triangles above.
+// RasterBatch::large: blocks in the low bits, large triangles above.
 FROXEL_CONST uint kRasterBlockBits = 40U;
-FROXEL_CONST uint kRasterMostTriangles = 1U << 24; // of a scene, so that neither part overflows
+FROXEL_CONST uint kRasterMostTriangles = 1U << 24; // of a batch, so that neither part overflows
+FROXEL_CONST uint kRasterMostBatches = 512U;
 
-// Begins as VkDispatchIndirectCommand: a workgroup a visible meshlet.
-struct RasterCounts {
+// Visible meshlets that are drawn together, since their large triangles have room together. Begins
+// as VkDispatchIndirectCommand: a workgroup a visible meshlet.
+struct RasterBatch {
     uint meshlets;
     uint one_y;
     uint one_z;
-    uint padding0;
+    uint first; // of visible_meshlets[]
     uint64_t large;
+    uint most;            // meshlets of a batch
+    uint meshlets_of_all; // of the first: those of all batches
 };
-FROXEL_SIZE_ASSERT(RasterCounts, 24);
+FROXEL_SIZE_ASSERT(RasterBatch, 32);
 
 // A triangle that is drawn in blocks.
 struct LargeTriangle {

@@ -1,6 +1,7 @@
 // Writes a pixel of a triangle, where it is the nearest so far and its material does not mask it.
 layout(push_constant) uniform RasterBlock {
     uint only_material; // of masked ones: kAnyMaterial, or that whose textures are bound
+    uint batch;
 };
 
 // Masked materials have pipelines of their own: others need a fraction of the registers.

@@ -4,6 +4,6 @@
 #include "interface/raster_io.h"
 
 layout(set = 2, binding = 15, scalar) buffer WordBlock { uint64_t words[]; };
-layout(set = 2, binding = 16, scalar) buffer RasterCountBlock { RasterCounts raster; };
+layout(set = 2, binding = 16, scalar) buffer RasterBatchBlock { RasterBatch batches[]; };
 layout(set = 2, binding = 17, scalar) buffer VisibleBlock { uint visible_meshlets[]; };
 layout(set = 2, binding = 18, scalar) buffer LargeBlock { LargeTriangle large_triangles[]; };

@@ -1,6 +1,7 @@
 // Ids rastered in compute against the rasteriser's, and exact among themselves.
 #include "builtin_scene/hall.h"
 #include "reference/geometry.h"
+#include "render/scene/scene_resources.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"
@@ -227,6 +228,28 @@ TEST_F(ComputeRaster, Paths_ChangeInEveryFrame_GiveTheSamePictures) {
         }
         const Picture picture = draw(view, inputs);
         EXPECT_EQ(differingFloats(picture, draw(renderer, inputs)), 0U);
+    }
+}
+
+// As a scene of more triangles than have room together: the same ids, whatever is drawn first.
+TEST_F(ComputeRaster, InBatches_HasTheSameBits) {
+    const std::vector<std::pair<scene::Scene, uint32_t>> batched = {
+        {makeRoom(), 600}, {builtin_scene::makeHall(), 60'000}};
+    for (const auto& [scene, most] : batched) {
+        SCOPED_TRACE(testing::Message() << scene.name << ", " << most);
+        render::Renderer at_once(device(), scene);
+        render::Renderer in_batches(device(), scene);
+        auto& visibility = in_batches.resources().materialsOfVariant(0)->visibility();
+        visibility.most_raster_triangles = most;
+        render::ViewRenderer expected(at_once);
+        render::ViewRenderer view(in_batches);
+        const auto inputs = inputsFor(scene.cameras.front().camera, GeometryPath::kComputeRaster);
+        EXPECT_EQ(differingFloats(draw(view, inputs), draw(expected, inputs)), 0U);
+        const auto one = view.readVisibility(scene);
+        const auto other = expected.readVisibility(scene);
+        ASSERT_TRUE(one && other);
+        EXPECT_EQ(compare(*one, *other).ids, 0U);
+        EXPECT_GT(visibility.computeRaster().empty_batches.size(), 3U);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "render/scene/compute_raster.h"
 
+#include "core/ceil_divide.h"
 #include "interface/constants.h"
 #include "render/scene/visibility_scene.h"
 
@@ -15,33 +16,65 @@ bool isMasked(const VisibilityGroup& group) {
     return (group.material_flags & io::kMaterialMask) != 0;
 }
 
+// Of a batch, all of whose triangles may be large.
+uint32_t
+meshletsOfBatch(const gpu::Device& device, const VisibilityScene& scene, uint32_t most_triangles) {
+    const auto all = static_cast<uint32_t>(scene.placed.size());
+    const uint32_t most =
+        scene.triangle_count <= most_triangles ? all : most_triangles >> io::kTriangleBits;
+    return std::clamp(most, 1U, device.limits().maxComputeWorkGroupCount[0]);
+}
+
+size_t batchesOf(const VisibilityScene& scene, uint32_t meshlet_count) {
+    return std::max<size_t>(ceilDivide(scene.placed.size(), size_t{meshlet_count}), 1);
+}
+
+std::vector<io::RasterBatch> emptyBatches(const VisibilityScene& scene, uint32_t meshlet_count) {
+    std::vector<io::RasterBatch> batches(batchesOf(scene, meshlet_count));
+    for (uint32_t i = 0; i < batches.size(); ++i) {
+        batches[i] = {.meshlets = 0,
+                      .one_y = 1,
+                      .one_z = 1,
+                      .first = i * meshlet_count,
+                      .large = 0,
+                      .most = meshlet_count,
+                      .meshlets_of_all = 0};
+    }
+    return batches;
+}
+
 } // namespace
 
 std::string ComputeRaster::unusable(const gpu::Device& device, const VisibilityScene& scene) {
     if (!device.traits().int64_atomics) {
         return "the device lacks shaderBufferInt64Atomics";
     }
-    if (scene.triangle_count > io::kRasterMostTriangles) {
-        return "the scene has more than " + std::to_string(io::kRasterMostTriangles) + " triangles";
-    }
-    if (scene.placed.size() > device.limits().maxComputeWorkGroupCount[0]) {
-        return "the scene has more meshlets than a dispatch may have workgroups";
+    const uint32_t each = meshletsOfBatch(device, scene, io::kRasterMostTriangles);
+    if (batchesOf(scene, each) > io::kRasterMostBatches) {
+        return "the scene has more meshlets than " + std::to_string(io::kRasterMostBatches) +
+               " batches may have";
     }
     return {};
 }
 
-ComputeRaster::ComputeRaster(const gpu::Device& device, const VisibilityScene& scene)
-    : arena(device), opaque(!std::ranges::all_of(scene.groups, isMasked)),
+ComputeRaster::ComputeRaster(const gpu::Device& device,
+                             const VisibilityScene& scene,
+                             uint32_t most_triangles)
+    : arena(device),
+      empty_batches(emptyBatches(scene, meshletsOfBatch(device, scene, most_triangles))),
+      opaque(!std::ranges::all_of(scene.groups, isMasked)),
       masked_flags(std::ranges::any_of(scene.groups, isMasked) ? scene.material_flags : 0) {
     const auto scratch = [&](size_t bytes, vk::BufferUsageFlags usage, const char* name) {
         return arena.makeBuffer(bytes, usage | Usage::eStorageBuffer, gpu::MemoryUse::kDevice,
                                 name);
     };
-    counts = scratch(sizeof(io::RasterCounts), Usage::eIndirectBuffer | Usage::eTransferDst,
-                     "raster counts");
+    batches = scratch(empty_batches.size() * sizeof(io::RasterBatch),
+                      Usage::eIndirectBuffer | Usage::eTransferDst, "raster counts");
     meshlets = scratch(scene.placed.size() * sizeof(uint32_t), {}, "visible meshlets");
+    const size_t most_of_batch = size_t{empty_batches.front().most} << io::kTriangleBits;
     large =
-        scratch(size_t{scene.triangle_count} * sizeof(io::LargeTriangle), {}, "large triangles");
+        scratch(std::min<size_t>(scene.triangle_count, most_of_batch) * sizeof(io::LargeTriangle),
+                {}, "large triangles");
     if (!scene.pipelines.bindless()) {
         for (const auto& group : scene.groups) {
             if (isMasked(group)) {

@@ -17,16 +17,19 @@ class VisibilityScene;
 
 class ComputeRaster {
   public:
-    ComputeRaster(const gpu::Device& device, const VisibilityScene& scene);
+    // most_triangles: of a batch, about; of a meshlet at least.
+    ComputeRaster(const gpu::Device& device, const VisibilityScene& scene, uint32_t most_triangles);
 
     // Empty when the device can raster the scene so, else why not.
     [[nodiscard]] static std::string unusable(const gpu::Device& device,
                                               const VisibilityScene& scene);
 
     gpu::MemoryArena arena;
-    gpu::Buffer counts;   // io::RasterCounts
+    gpu::Buffer batches;  // io::RasterBatch
     gpu::Buffer meshlets; // visible ones
-    gpu::Buffer large;    // io::LargeTriangle, room for every triangle
+    gpu::Buffer large;    // io::LargeTriangle, room for every triangle of a batch
+    // As each frame begins them.
+    const std::vector<io::RasterBatch> empty_batches;
 
     const bool opaque;                // there are opaque materials
     const MaterialFlags masked_flags; // of masked ones; 0: there are none

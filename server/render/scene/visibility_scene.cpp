@@ -217,7 +217,7 @@ VisibilityScene::VisibilityScene(SceneResources& scene,
 
 ComputeRaster& VisibilityScene::computeRaster() {
     if (!compute_raster_) {
-        compute_raster_ = std::make_unique<ComputeRaster>(device_, *this);
+        compute_raster_ = std::make_unique<ComputeRaster>(device_, *this, most_raster_triangles);
     }
     return *compute_raster_;
 }
@@ -267,7 +267,7 @@ void VisibilityFrame::write(const Bindings& bindings) {
         bindings.order};
     buffers[15] =
         raster != nullptr ? vk::DescriptorBufferInfo{bindings.words, 0, VK_WHOLE_SIZE} : none;
-    buffers[16] = raster != nullptr ? whole(raster->counts) : none;
+    buffers[16] = raster != nullptr ? whole(raster->batches) : none;
     buffers[17] = raster != nullptr ? whole(raster->meshlets) : none;
     buffers[18] = raster != nullptr ? whole(raster->large) : none;
     buffers[21] = *s.details.handle ? whole(s.details) : none;

@@ -5,6 +5,7 @@
 #include "gpu/memory.h"
 #include "gpu/upload.h"
 #include "interface/frame_io.h"
+#include "interface/raster_io.h"
 #include "interface/visibility_io.h"
 #include "render/device/visibility_pipelines.h"
 #include "render/scene/compute_raster.h"
@@ -71,6 +72,8 @@ class VisibilityScene {
 
     // Why ids cannot be rastered in compute; empty: they can.
     std::string compute_unusable;
+    // Of those rastered in compute together. For tests: fewer.
+    uint32_t most_raster_triangles = io::kRasterMostTriangles;
     // Made at the first call; compute_unusable is empty. Throws vk::SystemError.
     [[nodiscard]] ComputeRaster& computeRaster();
 

@@ -25,10 +25,12 @@ void recordComputeRaster(const FrameContext& frame, bool culls) {
     computeAfterTransfer(cmd);
     recordRasterCull(frame, culls);
     nextIndirectPass(cmd);
-    recordRasterMeshlets(frame);
-    nextIndirectPass(cmd);
-    recordRasterBlocks(frame);
-    nextIndirectPass(cmd);
+    for (uint32_t batch = 0; batch < rasterBatchCount(frame); ++batch) {
+        recordRasterMeshlets(frame, batch);
+        nextComputePass(cmd);
+        recordRasterBlocks(frame, batch);
+        nextComputePass(cmd);
+    }
     recordRasterUnpack(frame);
 }
 

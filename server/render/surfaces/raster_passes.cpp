@@ -21,12 +21,12 @@ using RasterStep = VisibilityPipelines::ComputeStep;
 
 // What is opaque; then what is masked, with all textures or one material's at a time.
 template <class Dispatch>
-void drawMaterials(const FrameContext& frame, RasterStep step, Dispatch dispatch) {
+void drawMaterials(const FrameContext& frame, RasterStep step, uint32_t batch, Dispatch dispatch) {
     const auto& scene = *frame.visibility;
     const auto draw = [&](vk::DescriptorSet textures, uint32_t material) {
         frame.slot.cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3,
                                           textures, {});
-        pushVisibilityWords(frame, {material, 0});
+        pushVisibilityWords(frame, {material, batch});
         dispatch();
     };
     const bool all_textures = scene.pipelines.bindless();
@@ -58,9 +58,9 @@ vk::BufferImageCopy wholeImage(const FrameContext& frame, vk::ImageAspectFlags a
 
 void recordRasterClear(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterClear);
-    const io::RasterCounts counts{.meshlets = 0, .one_y = 1, .one_z = 1, .padding0 = 0, .large = 0};
     frame.slot.cmd.fillBuffer(*frame.slot.targets->words.handle, 0, VK_WHOLE_SIZE, 0);
-    frame.slot.cmd.updateBuffer<io::RasterCounts>(*raster(frame).counts.handle, 0, counts);
+    frame.slot.cmd.updateBuffer<io::RasterBatch>(*raster(frame).batches.handle, 0,
+                                                 raster(frame).empty_batches);
 }
 
 void recordRasterSpoil(const FrameContext& frame) {
@@ -79,15 +79,21 @@ void recordRasterCull(const FrameContext& frame, bool culls) {
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 
-void recordRasterMeshlets(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterMeshlets);
-    drawMaterials(frame, RasterStep::kMeshlets,
-                  [&] { frame.slot.cmd.dispatchIndirect(*raster(frame).counts.handle, 0); });
+uint32_t rasterBatchCount(const FrameContext& frame) {
+    return static_cast<uint32_t>(raster(frame).empty_batches.size());
 }
 
-void recordRasterBlocks(const FrameContext& frame) {
+void recordRasterMeshlets(const FrameContext& frame, uint32_t batch) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterMeshlets);
+    drawMaterials(frame, RasterStep::kMeshlets, batch, [&] {
+        frame.slot.cmd.dispatchIndirect(*raster(frame).batches.handle,
+                                        batch * sizeof(io::RasterBatch));
+    });
+}
+
+void recordRasterBlocks(const FrameContext& frame, uint32_t batch) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterBlocks);
-    drawMaterials(frame, RasterStep::kBlocks,
+    drawMaterials(frame, RasterStep::kBlocks, batch,
                   [&] { frame.slot.cmd.dispatch(io::kRasterBlockGroups, 1, 1); });
 }
 

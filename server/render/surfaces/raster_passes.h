@@ -9,10 +9,14 @@ namespace froxel::render {
 void recordRasterClear(const FrameContext& frame); // clears words and counts
 // Writes the list of visible meshlets; culls: not of all.
 void recordRasterCull(const FrameContext& frame, bool culls);
-void recordRasterMeshlets(const FrameContext& frame); // reads that; writes words, large triangles
-void recordRasterBlocks(const FrameContext& frame);   // reads large triangles; writes words
-void recordRasterUnpack(const FrameContext& frame);   // reads words; writes depth and ids
-void recordRasterSpoil(const FrameContext& frame);    // for tests: overwrites words
+// Of which each batch is drawn by two passes, one batch after another.
+[[nodiscard]] uint32_t rasterBatchCount(const FrameContext& frame);
+// Reads that list; writes words and large triangles.
+void recordRasterMeshlets(const FrameContext& frame, uint32_t batch);
+// Reads large triangles; writes words.
+void recordRasterBlocks(const FrameContext& frame, uint32_t batch);
+void recordRasterUnpack(const FrameContext& frame); // reads words; writes depth and ids
+void recordRasterSpoil(const FrameContext& frame);  // for tests: overwrites words
 
 // Depth to where the rasteriser tests it, in two copies by way of the words' buffer.
 void recordDepthOut(const FrameContext& frame); // reads depth
