@@ -23,8 +23,10 @@ constexpr float kErrorOfEdge = 1.0F / 64;
 // dense on all levels but the first of them.
 constexpr float kMargin = 1.1F;
 constexpr float kMarginOfFinest = 1.5F;
-// A vertex of the mesh is given to a triangle that is so near to it, or else to the nearest one.
+// A vertex of the mesh is given to a triangle that is so near to it, as a part of an edge or of how
+// far the farthest are, or else to the nearest one.
 constexpr float kNearOfEdge = 1.0F / 16;
+constexpr float kNearOfMost = 0.25F;
 
 constexpr uint32_t kNone = 0xffffffffU;
 
@@ -199,8 +201,7 @@ class Builder {
     Builder(std::span<const glm::vec3> positions,
             std::span<const uint32_t> indices,
             std::span<const Meshlet> meshlets)
-        : positions_(positions), indices_(indices), exact_(meshlets),
-          mesh_(trianglesOf(indices, meshlets), positions), places_(positions.size()),
+        : positions_(positions), indices_(indices), exact_(meshlets), places_(positions.size()),
           followers_(meshlets.size()) {
         meshopt_generateVertexRemap(places_.data(), nullptr, positions.size(), positions.data(),
                                     positions.size(), sizeof(glm::vec3));
@@ -224,12 +225,6 @@ class Builder {
     [[nodiscard]] DetailLevels take() { return std::move(out_); }
 
   private:
-    static std::span<const uint32_t> trianglesOf(std::span<const uint32_t> indices,
-                                                 std::span<const Meshlet> meshlets) {
-        const uint32_t first = meshlets.front().first_index;
-        const uint32_t end = meshlets.back().first_index + meshlets.back().index_count;
-        return indices.subspan(first, end - first);
-    }
     [[nodiscard]] const Meshlet& meshlet(uint32_t m) const {
         return m < exact_.size() ? exact_[m] : out_.coarser.meshlets[m - exact_.size()];
     }
@@ -311,11 +306,12 @@ class Builder {
         to.followers.resize(to.list.meshlets.size());
         const float edge = meanEdge(positions_, coarse);
         float most = kErrorOfEdge * edge;
+        const float near = kNearOfEdge * edge;
         uint32_t triangle = 0;
         for (const uint32_t i : group) {
             for (const uint32_t vertex : followers_[current_[i]]) {
-                const auto found =
-                    surface.nearest(positions_[vertex], kNearOfEdge * edge, triangle);
+                const auto found = surface.nearest(positions_[vertex],
+                                                   std::max(near, kNearOfMost * most), triangle);
                 most = std::max(most, found.distance);
                 triangle = found.triangle;
                 to.followers[meshlet_of[triangle]].push_back(vertex);
@@ -333,12 +329,6 @@ class Builder {
                 });
             }
         }
-        uint32_t exact = 0;
-        eachEdgeMiddle(coarse, [&](const glm::vec3& middle) {
-            const auto found = mesh_.nearest(middle, most, exact);
-            most = std::max(most, found.distance);
-            exact = found.triangle;
-        });
         return most * (has_exact ? kMarginOfFinest : kMargin);
     }
     // False: nothing more can be made coarser.
@@ -387,7 +377,6 @@ class Builder {
     std::span<const glm::vec3> positions_;
     std::span<const uint32_t> indices_;
     std::span<const Meshlet> exact_;
-    const SurfaceDistance mesh_;
     std::vector<uint32_t> places_; // of vertices
     // Of each meshlet that nothing replaces yet: the mesh's vertices that it stands for.
     std::vector<std::vector<uint32_t>> followers_;

@@ -1,6 +1,6 @@
 #include "render/scene/meshlets.h"
 
-#include <algorithm>
+#include <bit>
 #include <meshoptimizer.h>
 
 namespace froxel::render {
@@ -11,23 +11,31 @@ constexpr size_t kMeshletVertices = 96;
 constexpr size_t kMeshletTriangles = 124;
 constexpr float kConeWeight = 0.5F;
 
+constexpr uint32_t kFree = 0xffffffffU;
+
 } // namespace
 
 LocalTriangles LocalTriangles::of(std::span<const uint32_t> some,
                                   std::span<const glm::vec3> all_positions) {
     LocalTriangles local;
-    local.vertices_.assign(some.begin(), some.end());
-    std::ranges::sort(local.vertices_);
-    local.vertices_.erase(std::unique(local.vertices_.begin(), local.vertices_.end()),
-                          local.vertices_.end());
-    local.owned_positions_.reserve(local.vertices_.size());
-    for (const uint32_t vertex : local.vertices_) {
-        local.owned_positions_.push_back(all_positions[vertex]);
-    }
+    // In the order of their first use. A hash table with linear probing, at most half full.
+    const size_t places = std::bit_ceil(2 * some.size());
+    const auto placeOf = [&](uint32_t vertex) {
+        return size_t{vertex} * 0x9e3779b97f4a7c15U >> (64 - std::countr_zero(places));
+    };
+    std::vector<uint32_t> table(places, kFree); // local vertices
     local.owned_indices_.reserve(some.size());
     for (const uint32_t vertex : some) {
-        local.owned_indices_.push_back(static_cast<uint32_t>(
-            std::ranges::lower_bound(local.vertices_, vertex) - local.vertices_.begin()));
+        size_t place = placeOf(vertex);
+        while (table[place] != kFree && local.vertices_[table[place]] != vertex) {
+            place = (place + 1) % places;
+        }
+        if (table[place] == kFree) {
+            table[place] = static_cast<uint32_t>(local.vertices_.size());
+            local.vertices_.push_back(vertex);
+            local.owned_positions_.push_back(all_positions[vertex]);
+        }
+        local.owned_indices_.push_back(table[place]);
     }
     local.indices = local.owned_indices_;
     local.positions = local.owned_positions_;

@@ -60,11 +60,6 @@ nearestOf(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm:
     return a + vb / (va + vb + vc) * ab + vc / (va + vb + vc) * ac;
 }
 
-float squaredToBox(const glm::vec3& point, const glm::vec3& low, const glm::vec3& high) {
-    const glm::vec3 beyond = glm::max(glm::max(low - point, point - high), glm::vec3(0));
-    return glm::dot(beyond, beyond);
-}
-
 } // namespace
 
 SurfaceDistance::SurfaceDistance(std::span<const uint32_t> indices,
@@ -104,6 +99,11 @@ void SurfaceDistance::build(uint32_t at, uint32_t first, uint32_t end) {
     });
 }
 
+float SurfaceDistance::squaredToBox(const glm::vec3& point, const Node& node) {
+    const glm::vec3 beyond = glm::max(glm::max(node.low - point, point - node.high), glm::vec3(0));
+    return glm::dot(beyond, beyond);
+}
+
 float SurfaceDistance::squaredTo(uint32_t triangle, const glm::vec3& point) const {
     // From the point: far from the origin single precision is coarse.
     const glm::vec3 offset = nearestOf(glm::vec3(0), corner(triangle, 0) - point,
@@ -115,15 +115,19 @@ SurfaceDistance::Found
 SurfaceDistance::nearest(const glm::vec3& point, float enough, uint32_t first) const {
     float squared = squaredTo(first, point);
     uint32_t triangle = first;
-    std::array<uint32_t, 64> stack{}; // the tree is balanced
+    struct Waiting {
+        uint32_t node;
+        float squared; // of its box
+    };
+    std::array<Waiting, 64> stack; // the tree is balanced
     uint32_t depth = 0;
-    stack[depth++] = 0;
+    stack[depth++] = {0, 0};
     while (depth > 0 && squared > enough * enough) {
-        const uint32_t at = stack[--depth];
-        const Node& node = nodes_[at];
-        if (!(squaredToBox(point, node.low, node.high) < squared)) {
+        const Waiting next = stack[--depth];
+        if (!(next.squared < squared)) {
             continue;
         }
+        const Node& node = nodes_[next.node];
         for (uint32_t i = node.first; i < node.first + node.count; ++i) {
             const float found = squaredTo(order_[i], point);
             if (found < squared) {
@@ -132,12 +136,12 @@ SurfaceDistance::nearest(const glm::vec3& point, float enough, uint32_t first) c
             }
         }
         if (node.count == 0) {
-            const Node& one = nodes_[at + 1];
-            const Node& other = nodes_[node.second];
-            const bool one_first = squaredToBox(point, one.low, one.high) <=
-                                   squaredToBox(point, other.low, other.high);
-            stack[depth++] = one_first ? node.second : at + 1;
-            stack[depth++] = one_first ? at + 1 : node.second;
+            const uint32_t first_child = next.node + 1;
+            const Waiting one{first_child, squaredToBox(point, nodes_[first_child])};
+            const Waiting other{node.second, squaredToBox(point, nodes_[node.second])};
+            const bool one_first = one.squared <= other.squared;
+            stack[depth++] = one_first ? other : one;
+            stack[depth++] = one_first ? one : other;
         }
     }
     return {std::sqrt(squared), triangle};

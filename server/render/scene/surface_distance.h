@@ -38,6 +38,7 @@ class SurfaceDistance {
     [[nodiscard]] glm::vec3 corner(uint32_t triangle, uint32_t i) const {
         return positions_[indices_[size_t{3} * triangle + i]];
     }
+    [[nodiscard]] static float squaredToBox(const glm::vec3& point, const Node& node);
     [[nodiscard]] float squaredTo(uint32_t triangle, const glm::vec3& point) const;
 
     std::span<const uint32_t> indices_;
