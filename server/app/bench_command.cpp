@@ -172,12 +172,18 @@ std::vector<bench::Sweep> sweepsOf(const BenchOptions& options, const bench::Bas
     return sweeps;
 }
 
+// Which make loading longer.
+bool drawsLevels(const BenchOptions& options) {
+    return options.settings.geometry_error_px > 0 ||
+           std::ranges::find(options.presets, "geometry_error") != options.presets.end();
+}
+
 int measureSweeps(const BenchOptions& options, const std::string& page) {
     const StopFlag stop;
     auto scene = loadScene(options.scene).value();
     surround(scene, readSurroundings(options.environment_file));
     gpu::Device device(options.device);
-    render::Renderer renderer(device, scene);
+    render::Renderer renderer(device, scene, {}, {.detail_levels = drawsLevels(options)});
     logWarnings(scene);
     bench::Run run(renderer, scene, startOf(options, scene, device.traits()), stop.stopped());
     run.measure(sweepsOf(options, run.result().base), [&](const bench::RunResult& result) {

@@ -15,7 +15,7 @@ struct BenchOptions {
     bool list = false;                          // print the presets, and nothing else
     std::vector<std::filesystem::path> compare; // two results to compare, and nothing else
     std::vector<std::filesystem::path> join;    // results to write as one, and nothing else
-    std::vector<std::string> presets;           // none: all but `smoke`
+    std::vector<std::string> presets;           // none: bench::fullPresetNames()
     std::string scene = "builtin";
     std::filesystem::path environment_file; // of light from around; empty: none
     gpu::DeviceOptions device;

@@ -184,16 +184,20 @@ PictureError ErrorMeter::against(Reference reference, const Row& row, Drawn& dra
         if (!picture) {
             return skippedFor(picture.error());
         }
-        auto meant = is_r1 ? r1Settings(settings) : r2Settings(settings);
+        const bool same_way = is_r1 || row.against == Against::kFullModel;
+        auto meant = same_way ? r1Settings(settings) : r2Settings(settings);
         meant.size = reference_size;
-        if (!is_r1 && row.against_peeled) {
+        if (!is_r1 && row.against == Against::kFullModel) {
+            meant.geometry_error_px = 0;
+        }
+        if (!is_r1 && row.against == Against::kPeeled) {
             meant.transparency = settings::Transparency::kPeeled;
             meant.peel_layers = settings::kPeelLayersRange.max;
         }
-        const bool by_device = is_r1 || row.against_peeled;
-        const auto right = by_device             ? pictures_.drawOnce(meant, time_s)
-                           : row.against_samples ? pictures_.sampleOnce(meant, time_s)
-                                                 : pictures_.shadeOnce(meant, time_s);
+        const bool by_device = same_way || row.against == Against::kPeeled;
+        const auto right = by_device                          ? pictures_.drawOnce(meant, time_s)
+                           : row.against == Against::kSamples ? pictures_.sampleOnce(meant, time_s)
+                                                              : pictures_.shadeOnce(meant, time_s);
         if (!right) {
             return skippedFor(right.error());
         }

@@ -131,7 +131,7 @@ std::string workloadOf(const Row& row, const Base& base) {
     }
     text += settings.exposure_mode == settings::ExposureMode::kFrame ? ", metered exposure" : "";
     text += settings.bloom.kind != settings::BloomKind::kNone ? ", bloom" : "";
-    text += row.against_peeled ? ", against 16 peeled layers" : "";
+    text += row.against == Against::kPeeled ? ", against 16 peeled layers" : "";
     if (const auto& fog = settings.fog; fog.present()) {
         text += fmt::format(", fog of {} a metre{}", numberText(fog.density),
                             fog.height_falloff > 0 ? " by height" : "");
@@ -142,7 +142,8 @@ std::string workloadOf(const Row& row, const Base& base) {
     if (const auto placed = settings.lights.placed.lights(); !placed.empty()) {
         text += fmt::format(", {} placed lights", placed.size());
     }
-    text += row.against_samples ? ", against 64 samples a pixel" : "";
+    text += row.against == Against::kSamples ? ", against 64 samples a pixel" : "";
+    text += row.against == Against::kFullModel ? ", against the full model" : "";
     return text;
 }
 

@@ -331,6 +331,7 @@ constexpr std::array kPresets = {
     Preset{"area_lights", areaSweep},
     Preset{"environment", environmentSweep},
     Preset{"stream", streamSweep},
+    Preset{"geometry_error", geometryErrorSweep},
     Preset{"material_variants", materialVariants},
     Preset{"smoke", smokeSweep},
 };
@@ -347,7 +348,8 @@ std::span<const std::string_view> presetNames() {
 }
 
 std::span<const std::string_view> fullPresetNames() {
-    constexpr size_t kByNameAlone = 2; // few scenes have variants, and smoke measures nothing
+    constexpr size_t kByNameAlone =
+        3; // few scenes are so large or have variants, and smoke measures nothing
     return std::span(kPresetNames).first(kPresetNames.size() - kByNameAlone);
 }
 

@@ -21,6 +21,10 @@ struct View {
     double time_s = 0;       // the lights' clock of its first frame
 };
 
+// What R2 is: shaded on the host in double; or drawn by the device, with 16 peeled layers, as the
+// mean of many samples a pixel, or without a geometry error.
+enum class Against : uint8_t { kReference, kPeeled, kSamples, kFullModel };
+
 struct Row {
     std::string label;
     std::string series;
@@ -34,8 +38,7 @@ struct Row {
     bool keep_surfaces = false; // FrameInputs::keep_surfaces
     // In whose form pictures come to the host; none: as pixels.
     std::optional<settings::Encoding> form = {};
-    bool against_peeled = false;  // R2 is the same with 16 layers peeled, drawn by the device
-    bool against_samples = false; // R2 is the mean of many samples a pixel, drawn by the device
+    Against against = Against::kReference;
 
     [[nodiscard]] size_t timedView() const { return only_view.value_or(0); }
 };

@@ -57,6 +57,24 @@ Sweep gbufferSweep(const Base& base) {
     return sweep;
 }
 
+Sweep geometryErrorSweep(const Base& base) {
+    Sweep sweep{"geometry_error",
+                "Coarser levels of meshes",
+                "error",
+                "px",
+                Axis::kLinear,
+                "R2 is the full model, drawn by the device in the same way.",
+                {}};
+    for (const float error_px : {8.0F, 4.0F, 2.0F, 1.0F, 0.5F, 0.0F}) {
+        auto row =
+            rowOf(base, kDeferred, numberText(error_px) + " px", static_cast<double>(error_px),
+                  [&](auto& s) { s.geometry_error_px = error_px; });
+        row.against = Against::kFullModel;
+        sweep.rows.push_back(std::move(row));
+    }
+    return sweep;
+}
+
 Sweep resolutionScaleSweep(const Base& base) {
     struct Scale {
         const char* label;
@@ -160,7 +178,7 @@ Sweep antialiasingSweep(const Base& base) {
         const auto value = static_cast<settings::Antialiasing>(kind);
         auto row = rowOf(base, kDeferred, nameOf(settings::kAntialiasingNames, value),
                          static_cast<double>(kind), [&](auto& s) { s.antialiasing = value; });
-        row.against_samples = true;
+        row.against = Against::kSamples;
         sweep.rows.push_back(std::move(row));
     }
     return sweep;
@@ -183,7 +201,7 @@ Sweep transparencySweep(const Base& base) {
                 s.transparency = kind;
                 s.peel_layers = layers.value_or(s.peel_layers);
             });
-        row.against_peeled = true;
+        row.against = Against::kPeeled;
         sweep.rows.push_back(std::move(row));
     };
     add(settings::Transparency::kSorted, std::nullopt);
@@ -376,7 +394,7 @@ Sweep smokeSweep(const Base& base) {
               [](auto& s) { s.environment.light = settings::EnvironmentLight::kStudio; }));
     auto smooth = rowOf(small, kDeferred, "ssaa4", 0,
                         [](auto& s) { s.antialiasing = settings::Antialiasing::kSsaa4; });
-    smooth.against_samples = true;
+    smooth.against = Against::kSamples;
     add(std::move(smooth));
     auto half = rowOf(small, kDeferred, "1/2", 0, [](auto& s) { s.size = scaledBy(s.size, 0.5); });
     half.scaled_to = small.settings.size;

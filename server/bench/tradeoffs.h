@@ -6,6 +6,7 @@
 namespace froxel::bench {
 
 [[nodiscard]] Sweep gbufferSweep(const Base& base);
+[[nodiscard]] Sweep geometryErrorSweep(const Base& base);
 [[nodiscard]] Sweep resolutionScaleSweep(const Base& base);
 [[nodiscard]] Sweep cutoffSweep(const Base& base);
 [[nodiscard]] Sweep compensationSweep(const Base& base);

@@ -16,11 +16,12 @@
 namespace froxel::bench {
 namespace {
 
-TEST(Presets, Full_AreAllButSmokeAndVariants) {
+TEST(Presets, Full_AreAllThatSuitEveryScene) {
     const auto full = fullPresetNames();
-    EXPECT_EQ(full.size() + 2, presetNames().size());
+    EXPECT_EQ(full.size() + 3, presetNames().size());
     EXPECT_EQ(std::ranges::count(full, "smoke"), 0);
     EXPECT_EQ(std::ranges::count(full, "material_variants"), 0);
+    EXPECT_EQ(std::ranges::count(full, "geometry_error"), 0);
     EXPECT_EQ(presetNames().back(), "smoke");
 }
 
