@@ -45,9 +45,9 @@ const kGiven: Readonly<Record<string, readonly [number, boolean]>> = {
   target_fps: [1, false], // which every picture meets: none is scaled
 };
 
-/** The hall has neither animations nor material variants, and so no controls of them. */
+/** The hall has no animations, material variants or coarser levels, and so no controls of them. */
 const kShownFields = kAllFields.filter(
-  ({ name }) => !name.startsWith('animation') && name !== 'material_variant',
+  ({ name }) => !name.startsWith('animation') && name !== 'material_variant' && name !== 'geometry_error',
 );
 const kNumbers: readonly NumberField[] = kShownFields.filter((field) => field.kind === 'number');
 const kGivenNumbers = Object.keys(kGiven).map((name) => {

@@ -84,6 +84,7 @@ Result<stream::ReadScene> SceneMaker::make(const std::string& source,
                                     lightPicker(*scene),
                                     first_view,
                                     looksOf(source, *scene)};
+    context.scene.detail_levels = options_.detail_levels;
     return stream::ReadScene{std::move(scene), std::move(context)};
 }
 

@@ -35,6 +35,7 @@ struct SceneSummary {
     std::shared_ptr<const scene::Motion> motion; // null: it rests
     std::vector<scene::Warning> warnings;
     uint64_t warnings_left_out = 0;
+    bool detail_levels = false; // the device has coarser levels of its meshes
 };
 
 [[nodiscard]] SceneSummary summarize(const scene::Scene& scene);

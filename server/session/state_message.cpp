@@ -26,6 +26,7 @@ void fill(v1::SceneInfo& out, const SessionContext& context) {
     out.set_materials(scene.material_count);
     out.set_textures(scene.texture_count);
     out.set_punctual_lights(scene.punctual_light_count);
+    out.set_detail_levels(scene.detail_levels);
     for (const scene::NamedCamera& camera : scene.cameras) {
         out.add_cameras(camera.name);
     }

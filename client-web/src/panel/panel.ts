@@ -172,6 +172,7 @@ export class Panel {
   }
 
   private addField(folder: GUI, field: Field, server: ServerInfo): void {
+    if (field.name === 'geometry_error' && !hasDetailLevels(server)) return;
     if (field.name === 'material_variant') {
       this.addVariants(folder, field, server);
       return;
@@ -308,6 +309,8 @@ export class Panel {
 
 const hasAnimations = ({ scene }: ServerInfo): boolean => (scene?.animations.length ?? 0) > 0;
 
+const hasDetailLevels = ({ scene }: ServerInfo): boolean => scene?.detailLevels ?? false;
+
 const variantsOf = ({ scene }: ServerInfo): readonly string[] => scene?.materialVariants ?? [];
 
 /** Whether a panel built for one server fits another, as after most reconnects. */
@@ -317,6 +320,7 @@ function sameControls(a: ServerInfo, b: ServerInfo): boolean {
       scene?.cameras,
       scene?.animations.length,
       scene?.materialVariants,
+      scene?.detailLevels,
       bounds,
       [...ranges.values()],
     ]);

@@ -24,6 +24,7 @@ export type Section =
 /** Where the panel has the settings of a command; effects are what is not named. */
 const kSections: Readonly<Partial<Record<CommandName, Section>>> = {
   setRenderer: 'rendering',
+  setGeometry: 'rendering',
   setExposure: 'exposure',
   setLights: 'lights',
   setAnimation: 'animation',
