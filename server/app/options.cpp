@@ -286,7 +286,8 @@ void addBench(CLI::App& app, Targets& targets) {
     auto& options = targets.bench;
     CommandBuilder command(app, "bench", "Measure frame times and errors over sweeps of settings");
     command
-        .text("--preset", "NAME", options.presets, "all but geometry_error, material_variants and smoke",
+        .text("--preset", "NAME", options.presets,
+              "all but geometry_error, material_variants and smoke",
               "Sweep to measure, repeatable; --list names them")
         ->allow_extra_args(false)
         ->check([](const std::string& text) {

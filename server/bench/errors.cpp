@@ -151,6 +151,31 @@ std::vector<size_t> ErrorMeter::viewsOf(const Row& row) const {
     return views;
 }
 
+Result<Pictures::Shared> ErrorMeter::right(Reference reference,
+                                           const Row& row,
+                                           const settings::ViewSettings& drawn,
+                                           const settings::Size& size,
+                                           double time_s) {
+    const Against against = reference == Reference::kR1 ? Against::kReference : row.against;
+    const bool same_way = reference == Reference::kR1 || against == Against::kFullModel;
+    settings::ViewSettings meant = same_way ? r1Settings(drawn) : r2Settings(drawn);
+    meant.size = size;
+    switch (against) {
+    case Against::kReference:
+        return same_way ? pictures_.drawOnce(meant, time_s) : pictures_.shadeOnce(meant, time_s);
+    case Against::kSamples:
+        return pictures_.sampleOnce(meant, time_s);
+    case Against::kPeeled:
+        meant.transparency = settings::Transparency::kPeeled;
+        meant.peel_layers = settings::kPeelLayersRange.max;
+        break;
+    case Against::kFullModel:
+        meant.geometry_error_px = 0;
+        break;
+    }
+    return pictures_.drawOnce(meant, time_s);
+}
+
 PictureError ErrorMeter::against(Reference reference, const Row& row, Drawn& drawn) {
     if (row.settings.debug.view != settings::DebugView::kNone) {
         return skippedFor("a debug view has no error");
@@ -184,26 +209,13 @@ PictureError ErrorMeter::against(Reference reference, const Row& row, Drawn& dra
         if (!picture) {
             return skippedFor(picture.error());
         }
-        const bool same_way = is_r1 || row.against == Against::kFullModel;
-        auto meant = same_way ? r1Settings(settings) : r2Settings(settings);
-        meant.size = reference_size;
-        if (!is_r1 && row.against == Against::kFullModel) {
-            meant.geometry_error_px = 0;
-        }
-        if (!is_r1 && row.against == Against::kPeeled) {
-            meant.transparency = settings::Transparency::kPeeled;
-            meant.peel_layers = settings::kPeelLayersRange.max;
-        }
-        const bool by_device = same_way || row.against == Against::kPeeled;
-        const auto right = by_device                          ? pictures_.drawOnce(meant, time_s)
-                           : row.against == Against::kSamples ? pictures_.sampleOnce(meant, time_s)
-                                                              : pictures_.shadeOnce(meant, time_s);
-        if (!right) {
-            return skippedFor(right.error());
+        const auto meant = right(reference, row, settings, reference_size, time_s);
+        if (!meant) {
+            return skippedFor(meant.error());
         }
         const bool same_size = reference_size == sizes.drawn;
-        auto error = same_size ? compare(**picture, **right)
-                               : compare(scaledTo(**picture, reference_size), **right);
+        auto error = same_size ? compare(**picture, **meant)
+                               : compare(scaledTo(**picture, reference_size), **meant);
         error.view = view;
         if (worst.view_count == 0 || worse(error, worst)) {
             const size_t seen = worst.view_count;

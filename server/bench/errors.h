@@ -85,6 +85,12 @@ class ErrorMeter {
     enum class Reference { kR1, kR2 };
     using Drawn = std::map<size_t, Result<Pictures::Shared>>; // by view
     PictureError against(Reference reference, const Row& row, Drawn& drawn);
+    // What the row, drawn by such settings, is held against.
+    Result<Pictures::Shared> right(Reference reference,
+                                   const Row& row,
+                                   const settings::ViewSettings& drawn,
+                                   const settings::Size& size,
+                                   double time_s);
     [[nodiscard]] std::vector<size_t> viewsOf(const Row& row) const;
 
     Pictures pictures_;

@@ -4,6 +4,7 @@
 #include "render/scene/surface_distance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <meshoptimizer.h>
 #include <optional>
 #include <utility>
@@ -19,10 +20,11 @@ constexpr float kMostKept = 0.8F;
 
 // Errors that are a smaller part of an edge are not told apart: what is so flat is cheap anyway.
 constexpr float kErrorOfEdge = 1.0F / 64;
-// For what lies between the points at which distances are taken: the mesh's vertices, which are
-// dense on all levels but the first of them.
-constexpr float kMargin = 1.1F;
-constexpr float kMarginOfFinest = 1.5F;
+// For what lies between the points at which distances are taken, the mesh's vertices: by so much
+// a distance may be larger there at most, and by this times their spacing over that of the coarse
+// vertices.
+constexpr float kMostMargin = 0.75F;
+constexpr float kMarginOfSpacing = 3;
 // A vertex of the mesh is given to a triangle that is so near to it, as a part of an edge or of how
 // far the farthest are, or else to the nearest one.
 constexpr float kNearOfEdge = 1.0F / 16;
@@ -45,23 +47,19 @@ class Neighbours {
     Neighbours(std::span<const uint32_t> places, size_t count, const IndicesOf& of)
         : lists_(count) {
         struct Seen { // at a place
-            uint32_t first = kNone;
             uint32_t last = kNone;
         };
         std::vector<Seen> seen(places.size());
         for (uint32_t m = 0; m < count; ++m) {
             for (const uint32_t vertex : of(m)) {
-                Seen& here = seen[places[vertex]];
-                if (here.last == m) {
-                    continue;
+                uint32_t& last = seen[places[vertex]].last;
+                // Of all at a place each with the next, so that no list is longer than a meshlet's
+                // vertices are many, even where all meet at one.
+                if (last != m && last != kNone) {
+                    add(m, last);
+                    add(last, m);
                 }
-                here.last = m;
-                if (here.first == kNone) {
-                    here.first = m;
-                } else {
-                    add(m, here.first);
-                    add(here.first, m);
-                }
+                last = m;
             }
         }
     }
@@ -85,17 +83,23 @@ class Grouping {
   public:
     // order: of the meshlets, neighbours in space near to each other.
     Grouping(const Neighbours& neighbours, std::span<const uint32_t> order)
-        : neighbours_(neighbours), group_of_(order.size(), kNone), shared_(order.size(), 0) {
-        for (size_t next = 0; next < order.size(); ++next) {
-            if (group_of_[order[next]] == kNone) {
-                grow(order.subspan(next));
-            }
+        : neighbours_(neighbours), order_(order), group_of_(order.size(), kNone),
+          shared_(order.size(), 0) {
+        while (const auto first = nextFree()) {
+            grow(*first);
         }
         joinSmall();
     }
     std::vector<Group> groups;
 
   private:
+    // The first in the order that is in no group.
+    std::optional<uint32_t> nextFree() {
+        while (next_ < order_.size() && group_of_[order_[next_]] != kNone) {
+            ++next_;
+        }
+        return next_ < order_.size() ? std::optional(order_[next_]) : std::nullopt;
+    }
     void take(uint32_t meshlet) {
         group_of_[meshlet] = static_cast<uint32_t>(groups.size() - 1);
         groups.back().push_back(meshlet);
@@ -106,9 +110,9 @@ class Grouping {
             shared_[neighbour.meshlet] += neighbour.shared;
         }
     }
-    void grow(std::span<const uint32_t> following) {
+    void grow(uint32_t first) {
         groups.emplace_back();
-        take(following.front());
+        take(first);
         while (groups.back().size() < kGroupMeshlets) {
             uint32_t best = kNone;
             for (const uint32_t candidate : candidates_) {
@@ -118,9 +122,8 @@ class Grouping {
                 }
             }
             if (best == kNone) { // pieces that touch nothing: what is near in space
-                const auto free = std::ranges::find_if(
-                    following, [&](uint32_t m) { return group_of_[m] == kNone; });
-                if (free == following.end() || !candidates_.empty()) {
+                const auto free = nextFree();
+                if (!free || !candidates_.empty()) {
                     break;
                 }
                 best = *free;
@@ -142,7 +145,8 @@ class Grouping {
             for (const uint32_t meshlet : groups[g]) {
                 for (const auto& neighbour : neighbours_.of(meshlet)) {
                     const uint32_t other = group_of_[neighbour.meshlet];
-                    if (other != g && neighbour.shared > most) {
+                    if (other != g && neighbour.shared > most &&
+                        groups[other].size() < 2 * kGroupMeshlets) {
                         most = neighbour.shared;
                         best = other;
                     }
@@ -160,6 +164,8 @@ class Grouping {
     }
 
     const Neighbours& neighbours_;
+    const std::span<const uint32_t> order_;
+    size_t next_ = 0;
     std::vector<uint32_t> group_of_;
     std::vector<uint32_t> shared_; // vertices with the group that grows
     std::vector<uint32_t> candidates_;
@@ -294,8 +300,9 @@ class Builder {
         out.error.error = std::max(out.error.error, apart);
         return out;
     }
-    // How far the group's part of the mesh and the coarser surface are apart; the mesh's vertices
-    // go to the coarser meshlets that they are near to.
+    // How far the group's part of the mesh is from the coarser surface; the mesh's vertices go to
+    // the coarser meshlets that they are near to. The other way needs no look: both surfaces end at
+    // one border, so that the points of the mesh are nearest to every point of the other.
     [[nodiscard]] float follow(const Group& group, Simplified& to) const {
         const std::span<const uint32_t> coarse = to.list.indices;
         const SurfaceDistance surface(coarse, positions_);
@@ -308,7 +315,9 @@ class Builder {
         float most = kErrorOfEdge * edge;
         const float near = kNearOfEdge * edge;
         uint32_t triangle = 0;
+        size_t vertex_count = 1;
         for (const uint32_t i : group) {
+            vertex_count += followers_[current_[i]].size();
             for (const uint32_t vertex : followers_[current_[i]]) {
                 const auto found = surface.nearest(positions_[vertex],
                                                    std::max(near, kNearOfMost * most), triangle);
@@ -318,10 +327,8 @@ class Builder {
             }
         }
         // Between its vertices the mesh itself matters as long as its edges are as long as these.
-        bool has_exact = false;
         for (const uint32_t i : group) {
             if (out_.details[current_[i]].own.error == 0) {
-                has_exact = true;
                 eachEdgeMiddle(indicesOf(current_[i]), [&](const glm::vec3& middle) {
                     const auto found = surface.nearest(middle, most, triangle);
                     most = std::max(most, found.distance);
@@ -329,7 +336,9 @@ class Builder {
                 });
             }
         }
-        return most * (has_exact ? kMarginOfFinest : kMargin);
+        const auto coarse_vertices = static_cast<float>(coarse.size()) / 6;
+        const float spacing = std::sqrt(coarse_vertices / static_cast<float>(vertex_count));
+        return most * (1 + std::min(kMostMargin, kMarginOfSpacing * spacing));
     }
     // False: nothing more can be made coarser.
     bool addLevel() {

@@ -1,7 +1,5 @@
 #include "render/scene/surface_distance.h"
 
-#include "core/parallel.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,17 +10,9 @@ namespace froxel::render {
 namespace {
 
 constexpr uint32_t kLeafTriangles = 4;
-constexpr uint32_t kTrianglesOfThread = 100'000;
-
-// Of the tree over so many triangles.
-uint32_t nodeCount(uint32_t triangles) {
-    return triangles <= kLeafTriangles
-               ? 1
-               : 1 + nodeCount(triangles / 2) + nodeCount(triangles - triangles / 2);
-}
 
 // The point of a triangle that is nearest to p (Ericson 2005, Real-Time Collision Detection,
-// 5.1.5). A degenerate triangle gives one of its points.
+// 5.1.5). Edges without a length, and triangles without an area, count as what they are part of.
 glm::vec3
 nearestOf(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const glm::vec3 ab = b - a;
@@ -40,7 +30,7 @@ nearestOf(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm:
         return b;
     }
     const float vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+    if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) {
         return a + d1 / (d1 - d3) * ab;
     }
     const glm::vec3 cp = p - c;
@@ -50,14 +40,15 @@ nearestOf(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm:
         return c;
     }
     const float vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+    if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) {
         return a + d2 / (d2 - d6) * ac;
     }
     const float va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 >= d3 && d5 >= d6) {
-        return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+    if (va <= 0 && d4 >= d3 && d5 >= d6 && d4 - d3 + d5 - d6 > 0) {
+        return b + (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b);
     }
-    return a + vb / (va + vb + vc) * ab + vc / (va + vb + vc) * ac;
+    const float whole = va + vb + vc;
+    return whole > 0 ? a + vb / whole * ab + vc / whole * ac : a;
 }
 
 } // namespace
@@ -66,22 +57,22 @@ SurfaceDistance::SurfaceDistance(std::span<const uint32_t> indices,
                                  std::span<const glm::vec3> positions)
     : indices_(indices), positions_(positions), order_(indices.size() / 3) {
     std::iota(order_.begin(), order_.end(), 0U);
-    const auto count = static_cast<uint32_t>(order_.size());
-    nodes_.resize(nodeCount(count));
-    build(0, 0, count);
+    nodes_.reserve(order_.size());
+    build(0, static_cast<uint32_t>(order_.size()));
 }
 
-void SurfaceDistance::build(uint32_t at, uint32_t first, uint32_t end) {
-    Node& node = nodes_[at];
-    node = {corner(order_[first], 0), corner(order_[first], 0), first, end - first, 0};
+uint32_t SurfaceDistance::build(uint32_t first, uint32_t end) {
+    const auto at = static_cast<uint32_t>(nodes_.size());
+    Node node{corner(order_[first], 0), corner(order_[first], 0), first, end - first, 0};
     for (uint32_t i = first; i < end; ++i) {
         for (uint32_t k = 0; k < 3; ++k) {
             node.low = glm::min(node.low, corner(order_[i], k));
             node.high = glm::max(node.high, corner(order_[i], k));
         }
     }
+    nodes_.push_back(node);
     if (end - first <= kLeafTriangles) {
-        return;
+        return at;
     }
     const glm::vec3 size = node.high - node.low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -91,12 +82,10 @@ void SurfaceDistance::build(uint32_t at, uint32_t first, uint32_t end) {
     const uint32_t middle = (first + end) / 2;
     std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + end,
                      [&](uint32_t a, uint32_t b) { return place(a) < place(b); });
-    node.count = 0;
-    node.second = at + 1 + nodeCount(middle - first);
-    const size_t threads = end - first > kTrianglesOfThread ? 2 : 1;
-    eachOnThreads(2, threads, [&](size_t half) {
-        half == 0 ? build(at + 1, first, middle) : build(node.second, middle, end);
-    });
+    nodes_[at].count = 0;
+    build(first, middle);
+    nodes_[at].second = build(middle, end);
+    return at;
 }
 
 float SurfaceDistance::squaredToBox(const glm::vec3& point, const Node& node) {

@@ -17,8 +17,7 @@ class SurfaceDistance {
         uint32_t triangle = 0;
     };
 
-    // indices: 3 a triangle, at least one, into `positions`. Refers to both. Many are sorted on
-    // several threads.
+    // indices: 3 a triangle, at least one, into `positions`. Refers to both.
     SurfaceDistance(std::span<const uint32_t> indices, std::span<const glm::vec3> positions);
 
     // The triangle nearest to the point; or any one that is no farther than `enough`. first: a
@@ -34,7 +33,7 @@ class SurfaceDistance {
         uint32_t count = 0;  // 0: no leaf
         uint32_t second = 0; // child; the other follows its parent
     };
-    void build(uint32_t at, uint32_t first, uint32_t end);
+    uint32_t build(uint32_t first, uint32_t end); // returns the node's place
     [[nodiscard]] glm::vec3 corner(uint32_t triangle, uint32_t i) const {
         return positions_[indices_[size_t{3} * triangle + i]];
     }

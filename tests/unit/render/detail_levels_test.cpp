@@ -345,5 +345,36 @@ TEST(SurfaceDistance, Point_IsMeasuredToFaceEdgeAndCorner) {
     EXPECT_FLOAT_EQ(distance({-4, 5, 0}), 5);
 }
 
+// Degenerate ones, too, whichever is looked at first.
+TEST(SurfaceDistance, TriangleWithoutArea_IsALineOrAPoint) {
+    const std::vector<glm::vec3> positions = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}};
+    for (const std::vector<uint32_t>& indices :
+         {std::vector<uint32_t>{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {0, 1, 2}, {2, 0, 1}, {1, 2, 0}}) {
+        const SurfaceDistance line(indices, positions);
+        EXPECT_FLOAT_EQ(line.nearest({1, 3, 0}, 0, 0).distance, 3);
+        EXPECT_FLOAT_EQ(line.nearest({5, 0, 4}, 0, 0).distance, 5);
+    }
+    const std::vector<uint32_t> point = {1, 1, 1};
+    EXPECT_FLOAT_EQ(SurfaceDistance(point, positions).nearest({2, 0, 7}, 0, 0).distance, 7);
+}
+
+// A hub that every meshlet has a corner at.
+TEST(DetailLevels, FanOfManyMeshlets_HasLevelsWithinTheError) {
+    Mesh mesh;
+    mesh.positions.push_back({0, 0, 0});
+    constexpr uint32_t kSpokes = 60'000;
+    for (uint32_t i = 0; i < kSpokes; ++i) {
+        const float turn = 6.2831853F * static_cast<float>(i) / kSpokes;
+        mesh.positions.push_back({std::cos(turn), std::sin(turn), 0.1F * std::sin(9 * turn)});
+        mesh.indices.insert(mesh.indices.end(), {0, 1 + i, 1 + (i + 1) % kSpokes});
+    }
+    const Levels levels = levelsOf(mesh);
+    for (const float error : {1e-3F, 1e-1F}) {
+        const auto indices = drawn(levels, {.everywhere = error});
+        EXPECT_LE(farthestApart(mesh.positions, indices, levels.exact.indices),
+                  error + rounding(mesh));
+    }
+}
+
 } // namespace
 } // namespace froxel::render
