@@ -185,7 +185,7 @@ class RendererSource final : public FrameSource {
                    Seconds frame_limit,
                    const render::MemoryLimits& memory,
                    const render::SceneOptions& scenes)
-        : device_(std::move(device)), scenes_(scenes), on_(*device_, memory, scenes),
+        : device_(std::move(device)), on_(*device_, memory, scenes),
           renderer_(on_, scene), work_{.limits = limitsOf(*device_, frame_limit),
                                        .is_host = device_->traits().is_cpu} {}
 
@@ -216,7 +216,7 @@ class RendererSource final : public FrameSource {
     [[nodiscard]] double pace() const override { return work_.pace.value(); }
 
     [[nodiscard]] uint64_t sceneBytes(const scene::Scene& scene) const override {
-        return render::sceneBytes(scene, scenes_);
+        return render::sceneBytes(scene, on_.sceneOptions());
     }
 
     [[nodiscard]] Result<std::unique_ptr<SceneMove>>
@@ -248,7 +248,6 @@ class RendererSource final : public FrameSource {
     }
 
     std::unique_ptr<gpu::Device> device_;
-    const render::SceneOptions scenes_;
     render::RenderDevice on_;
     render::Renderer renderer_;
     DeviceWork work_;

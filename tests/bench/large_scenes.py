@@ -24,7 +24,8 @@ def draw(froxel: str, scene: Path, error_px: float, options: list[str]) -> dict:
     timings = scene.with_suffix(f".{error_px}.json")
     command = [froxel, "render", "--scene", str(scene), "--camera", "Field", "--size", "1920x1080"]
     command += ["--lights", "5000", "--environment", "off", "--geometry-error", str(error_px)]
-    command += ["--frames", str(FRAMES), "--timings", str(timings), *options]
+    command += ["--frames", str(FRAMES), "--timings", str(timings)]
+    command += ["--log-level", "info", *options]
     start = time.monotonic()
     ran = subprocess.run(command, capture_output=True, text=True)
     if ran.returncode != 0:

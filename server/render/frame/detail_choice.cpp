@@ -26,17 +26,13 @@ DetailChoice::DetailChoice(float error_px,
                            const ViewProjection& projection,
                            const glm::mat4& view_from_object)
     : error_px_(error_px), perspective_(camera.projection == settings::Projection::kPerspective),
-      near_m_(static_cast<float>(camera.near_m)),
-      scale_(largestScale(glm::mat3(view_from_object))) {
+      near_m_(static_cast<float>(camera.near_m)), scale_(largestScale(glm::mat3(view_from_object))),
+      rows_(glm::transpose(view_from_object)) {
     const glm::dvec2 half_px(size.width_px * 0.5, size.height_px * 0.5);
-    pixels_ = static_cast<float>(
-        std::max(projection.clip_scale.x * half_px.x, projection.clip_scale.y * half_px.y));
+    const glm::dvec2 pixels = glm::abs(projection.clip_scale) * half_px;
+    pixels_ = static_cast<float>(std::max(pixels.x, pixels.y));
     const glm::dvec2 corner = (1.0 + glm::abs(projection.clip_offset)) / projection.clip_scale;
     obliquity_ = static_cast<float>(std::sqrt(1 + glm::dot(corner, corner)));
-    for (int r = 0; r < 3; ++r) {
-        rows_[r] = {view_from_object[0][r], view_from_object[1][r], view_from_object[2][r],
-                    view_from_object[3][r]};
-    }
 }
 
 // A point at depth z, whose ray is o times as long, moves by no more than pixels * o / z for each

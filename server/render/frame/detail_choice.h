@@ -34,7 +34,7 @@ class DetailChoice {
     float pixels_;    // a metre across the view axis, 1 m before the eye; orthographic: anywhere
     float obliquity_; // at most, of rays of the picture: their length over that along the axis
     float scale_;     // metres of an object's unit, at most
-    glm::vec4 rows_[3];
+    glm::mat4 rows_;  // of view_from_object
 };
 
 } // namespace froxel::render

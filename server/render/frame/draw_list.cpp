@@ -393,7 +393,7 @@ void Builder::build(bool solid_wanted, TransparentOrder order) {
     std::vector<Visible> solid;
     std::vector<Visible> transparent;
     for (uint32_t i = 0; i < items_.size(); ++i) {
-        const bool blend = (items_[i].material_flags & io::kMaterialBlend) != 0;
+        const bool blend = !isSolid(items_[i]);
         if (blend || solid_wanted) {
             collect(i, blend ? transparent : solid);
         }

@@ -19,7 +19,7 @@ struct Corner {
     glm::vec2 at;
     glm::ivec2 from;
     glm::ivec2 to;
-    bool ahead = false; // of the eye; else the others say nothing
+    bool ahead; // of the eye; else the others say nothing
 };
 
 int roundedUp(float value) {

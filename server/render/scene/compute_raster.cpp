@@ -69,7 +69,7 @@ ComputeRaster::ComputeRaster(const gpu::Device& device,
                                 name);
     };
     batches = scratch(empty_batches.size() * sizeof(io::RasterBatch),
-                      Usage::eIndirectBuffer | Usage::eTransferDst, "raster counts");
+                      Usage::eIndirectBuffer | Usage::eTransferDst, "raster batches");
     meshlets = scratch(scene.placed.size() * sizeof(uint32_t), {}, "visible meshlets");
     const size_t most_of_batch = size_t{empty_batches.front().most} << io::kTriangleBits;
     large =

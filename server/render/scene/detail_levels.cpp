@@ -46,13 +46,10 @@ class Neighbours {
     template <class IndicesOf>
     Neighbours(std::span<const uint32_t> places, size_t count, const IndicesOf& of)
         : lists_(count) {
-        struct Seen { // at a place
-            uint32_t last = kNone;
-        };
-        std::vector<Seen> seen(places.size());
+        std::vector<uint32_t> last_at(places.size(), kNone); // meshlet at a place
         for (uint32_t m = 0; m < count; ++m) {
             for (const uint32_t vertex : of(m)) {
-                uint32_t& last = seen[places[vertex]].last;
+                uint32_t& last = last_at[places[vertex]];
                 // Of all at a place each with the next, so that no list is longer than a meshlet's
                 // vertices are many, even where all meet at one.
                 if (last != m && last != kNone) {
@@ -202,11 +199,11 @@ float meanEdge(std::span<const glm::vec3> positions, std::span<const uint32_t> i
     return sum / static_cast<float>(indices.size() / 3);
 }
 
-class Builder {
+class LevelBuilder {
   public:
-    Builder(std::span<const glm::vec3> positions,
-            std::span<const uint32_t> indices,
-            std::span<const Meshlet> meshlets)
+    LevelBuilder(std::span<const glm::vec3> positions,
+                 std::span<const uint32_t> indices,
+                 std::span<const Meshlet> meshlets)
         : positions_(positions), indices_(indices), exact_(meshlets), places_(positions.size()),
           followers_(meshlets.size()) {
         meshopt_generateVertexRemap(places_.data(), nullptr, positions.size(), positions.data(),
@@ -315,25 +312,24 @@ class Builder {
         float most = kErrorOfEdge * edge;
         const float near = kNearOfEdge * edge;
         uint32_t triangle = 0;
+        const auto look = [&](const glm::vec3& point, float enough) {
+            const auto found = surface.nearest(point, enough, triangle);
+            most = std::max(most, found.distance);
+            triangle = found.triangle;
+        };
         size_t vertex_count = 1;
         for (const uint32_t i : group) {
             vertex_count += followers_[current_[i]].size();
             for (const uint32_t vertex : followers_[current_[i]]) {
-                const auto found = surface.nearest(positions_[vertex],
-                                                   std::max(near, kNearOfMost * most), triangle);
-                most = std::max(most, found.distance);
-                triangle = found.triangle;
+                look(positions_[vertex], std::max(near, kNearOfMost * most));
                 to.followers[meshlet_of[triangle]].push_back(vertex);
             }
         }
         // Between its vertices the mesh itself matters as long as its edges are as long as these.
         for (const uint32_t i : group) {
             if (out_.details[current_[i]].own.error == 0) {
-                eachEdgeMiddle(indicesOf(current_[i]), [&](const glm::vec3& middle) {
-                    const auto found = surface.nearest(middle, most, triangle);
-                    most = std::max(most, found.distance);
-                    triangle = found.triangle;
-                });
+                eachEdgeMiddle(indicesOf(current_[i]),
+                               [&](const glm::vec3& middle) { look(middle, most); });
             }
         }
         const auto coarse_vertices = static_cast<float>(coarse.size()) / 6;
@@ -398,7 +394,7 @@ class Builder {
 DetailLevels buildDetailLevels(std::span<const glm::vec3> positions,
                                std::span<const uint32_t> indices,
                                std::span<const Meshlet> meshlets) {
-    return meshlets.empty() ? DetailLevels{} : Builder(positions, indices, meshlets).take();
+    return meshlets.empty() ? DetailLevels{} : LevelBuilder(positions, indices, meshlets).take();
 }
 
 } // namespace froxel::render

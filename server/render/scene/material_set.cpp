@@ -1,6 +1,5 @@
 #include "render/scene/material_set.h"
 
-#include "interface/constants.h"
 #include "render/scene/scene_resources.h"
 
 #include <utility>
@@ -17,19 +16,18 @@ SurfaceNeeds needsOf(const SceneResources& scene, const std::vector<DrawItem>& i
     return needs;
 }
 
-MaterialFlags solidFlagsOf(const std::vector<DrawItem>& items) {
+} // namespace
+
+MaterialFlags solidFlags(std::span<const DrawItem> items) {
     MaterialFlags flags = 0;
     for (const DrawItem& item : items) {
-        const bool solid = (item.material_flags & io::kMaterialBlend) == 0;
-        flags |= solid ? item.material_flags : 0;
+        flags |= isSolid(item) ? item.material_flags : 0;
     }
     return flags;
 }
 
-} // namespace
-
 MaterialSet::MaterialSet(SceneResources& scene, std::vector<DrawItem> items_in)
-    : items(std::move(items_in)), needs(needsOf(scene, items)), solid_flags(solidFlagsOf(items)),
+    : items(std::move(items_in)), needs(needsOf(scene, items)), solid_flags(solidFlags(items)),
       scene_(scene), unusable_{VisibilityScene::unusable(scene, items, Detail::kExact),
                                VisibilityScene::unusable(scene, items, Detail::kLevels)} {}
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/upload.h"
+#include "interface/constants.h"
 #include "render/scene/geometry_pack.h"
 #include "render/scene/scene_needs.h"
 #include "render/scene/visibility_scene.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,13 @@ struct DrawItem {
     bool bends = false;               // of its meshlets nothing but the primitive's sphere is known
 };
 
+// Does not blend.
+[[nodiscard]] inline bool isSolid(const DrawItem& item) {
+    return (item.material_flags & io::kMaterialBlend) == 0;
+}
+// Of any of them that is solid.
+[[nodiscard]] MaterialFlags solidFlags(std::span<const DrawItem> items);
+
 // Used by the render thread; frames on the device hold the one that they draw.
 class MaterialSet {
   public:
@@ -31,7 +40,7 @@ class MaterialSet {
     // As they stand at time 0, where the scene moves; a frame has its ScenePose.
     const std::vector<DrawItem> items;
     const SurfaceNeeds needs;
-    const MaterialFlags solid_flags; // of any item that does not blend
+    const MaterialFlags solid_flags; // of the items
     // Why; empty: visibility passes can draw it.
     [[nodiscard]] const std::string& visibilityUnusable(Detail detail = Detail::kExact) const {
         return unusable_[static_cast<size_t>(detail)];

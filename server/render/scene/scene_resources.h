@@ -61,10 +61,9 @@ class SceneResources {
     // rasteriser draws. None: not measured yet.
     std::optional<double> overdraw;
 
-    // What views with these settings draw.
-    [[nodiscard]] Detail detailOf(const settings::ViewSettings& settings) const {
-        return settings.geometry_error_px > 0 && !details.empty() ? Detail::kLevels
-                                                                  : Detail::kExact;
+    // What views with this error draw.
+    [[nodiscard]] Detail detailOf(float geometry_error_px) const {
+        return geometry_error_px > 0 && !details.empty() ? Detail::kLevels : Detail::kExact;
     }
     // Null: no mesh bends.
     [[nodiscard]] const MeshPoser* poser() const { return motion ? motion->poser.get() : nullptr; }

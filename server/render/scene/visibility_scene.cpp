@@ -21,10 +21,6 @@ constexpr size_t kMostMeshlets = size_t{1} << (32 - io::kTriangleBits);
 // Of meshlets that bend: larger than any scene, and far from the end of single precision.
 constexpr float kAnywhere_m = 1e18F;
 
-bool solid(const DrawItem& item) {
-    return (item.material_flags & io::kMaterialBlend) == 0;
-}
-
 // The flags that tell the raster pass's pipelines apart: all of a masked material's, else its
 // faces.
 MaterialFlags rasterFlags(const DrawItem& item) {
@@ -46,7 +42,7 @@ class Placer {
         : scene_(scene), with_levels_(detail == Detail::kLevels) {
         std::vector<uint32_t> order;
         for (uint32_t i = 0; i < drawn.size(); ++i) {
-            if (solid(drawn[i])) {
+            if (isSolid(drawn[i])) {
                 order.push_back(i);
             }
         }
@@ -99,7 +95,7 @@ class Placer {
                          primitive.material, featuresOf(item.material_flags),
                          texturesOf(item.material_flags)});
         place(item, item_index, primitive.first_meshlet, primitive.meshlet_count);
-        if (with_levels_ && !item.bends) {
+        if (with_levels_) {
             place(item, item_index, primitive.first_coarser_meshlet,
                   primitive.coarser_meshlet_count);
         }
@@ -115,12 +111,11 @@ class Placer {
                                 static_cast<uint32_t>(groups.size()) - 1});
             triangle_count += m.index_count / 3;
             if (with_levels_) {
-                details.push_back(item.bends ? alwaysDrawn() : placedDetail(scene_.details[i]));
+                details.push_back(placedDetail(scene_.details[i]));
             }
         }
         groups.back().meshlet_count += count;
     }
-    static io::PlacedDetail alwaysDrawn() { return placedDetail({}); }
     static io::PlacedDetail placedDetail(const MeshletDetail& detail) {
         const auto of = [](const DetailError& e) {
             return io::DetailError{e.center, e.radius, e.error};
@@ -157,10 +152,10 @@ std::string VisibilityScene::unusable(const SceneResources& scene,
     for (const auto& item : drawn) {
         // Groups fill up workgroups: at most one a material and winding.
         const auto& primitive = item.primitive;
-        const bool levels = detail == Detail::kLevels && !item.bends;
+        const bool levels = detail == Detail::kLevels;
         meshlet_count +=
-            solid(item) ? primitive.meshlet_count + (levels ? primitive.coarser_meshlet_count : 0)
-                        : 0;
+            isSolid(item) ? primitive.meshlet_count + (levels ? primitive.coarser_meshlet_count : 0)
+                          : 0;
     }
     meshlet_count += size_t{io::kCullGroup} * 4 * (scene.material_uniforms.size() + 1);
     if (meshlet_count > kMostMeshlets) {
@@ -173,8 +168,8 @@ VisibilityScene::VisibilityScene(SceneResources& scene,
                                  std::span<const DrawItem> drawn,
                                  Detail detail,
                                  gpu::Uploader& uploader)
-    : arena(scene.shared.device), pipelines(scene.visibilityPipelines()),
-      device_(scene.shared.device) {
+    : material_flags(solidFlags(drawn)), arena(scene.shared.device),
+      pipelines(scene.visibilityPipelines()), device_(scene.shared.device) {
     Placer placer(scene, drawn, detail);
     groups = std::move(placer.groups);
     placed = std::move(placer.meshlets);
@@ -186,7 +181,6 @@ VisibilityScene::VisibilityScene(SceneResources& scene,
     }
     for (const auto& item : placer.items) {
         item_instances.push_back(item.instance);
-        material_flags |= MaterialFlags{item.textures} << 32U | item.flags;
         materials_in_use.push_back(item.material_index);
     }
     std::sort(materials_in_use.begin(), materials_in_use.end());
@@ -270,7 +264,7 @@ void VisibilityFrame::write(const Bindings& bindings) {
     buffers[16] = raster != nullptr ? whole(raster->batches) : none;
     buffers[17] = raster != nullptr ? whole(raster->meshlets) : none;
     buffers[18] = raster != nullptr ? whole(raster->large) : none;
-    buffers[21] = *s.details.handle ? whole(s.details) : none;
+    buffers[21] = s.hasLevels() ? whole(s.details) : none;
     std::array<vk::DescriptorImageInfo, VisibilityPipelines::kBindings> images;
     const auto image = [&](uint32_t binding, vk::ImageView view) {
         images[binding] = {.imageView = view, .imageLayout = vk::ImageLayout::eGeneral};

@@ -52,10 +52,11 @@ class VisibilityScene {
     std::vector<io::PlacedMeshlet> placed; // the host's copy, for ordering them
     // Whether frames order them, near ones first: of more it would take too long.
     [[nodiscard]] bool ordered() const { return placed.size() <= kMostOrdered; }
+    [[nodiscard]] bool hasLevels() const { return *details.handle != vk::Buffer{}; }
     std::vector<uint32_t> item_instances;
     uint32_t block_count = 0;
-    MaterialFlags material_flags = 0; // of any solid item
-    uint32_t triangle_count = 0;      // of all meshlets
+    const MaterialFlags material_flags; // of any solid item
+    uint32_t triangle_count = 0;        // of all meshlets
 
     gpu::MemoryArena arena;
     gpu::Buffer items;

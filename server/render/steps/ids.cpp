@@ -87,7 +87,8 @@ class Ids final : public Step {
   private:
     Result<void> build(const StepInputs& inputs, const FramePlan& frame) override {
         in_compute_ = frame.geometry == SolidGeometry::kComputeIds;
-        visible_ = &inputs.pose.materialSet()->visibility(scene_.detailOf(inputs.settings));
+        visible_ = &inputs.pose.materialSet()->visibility(
+            scene_.detailOf(inputs.settings.geometry_error_px));
         return {};
     }
     [[nodiscard]] RegionCost cost(const FrameCosts& costs) const {

@@ -45,7 +45,7 @@ glm::dmat3 axesAlong(const glm::dvec3& direction) {
 }
 
 bool castsShadows(const SceneResources& scene, const DrawItem& item) {
-    if ((item.material_flags & io::kMaterialBlend) != 0) {
+    if (!isSolid(item)) {
         return false;
     }
     const bool glows = scene.material_uniforms[item.primitive.material].emissive != glm::vec3(0) &&

@@ -71,12 +71,9 @@ void recordRasterSpoil(const FrameContext& frame) {
 
 void recordRasterCull(const FrameContext& frame, bool culls) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCull);
-    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(
-                                     hasLevels(*frame.visibility) ? RasterStep::kCullListDetail
-                                                                  : RasterStep::kCullList));
-    pushVisibilityWords(
-        frame, {cullFlags(frame, culls), static_cast<uint32_t>(frame.visibility->groups.size())});
-    frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
+    const auto& scene = *frame.visibility;
+    const auto step = scene.hasLevels() ? RasterStep::kCullListDetail : RasterStep::kCullList;
+    dispatchCull(frame, scene.pipelines.compute(step), culls);
 }
 
 uint32_t rasterBatchCount(const FrameContext& frame) {

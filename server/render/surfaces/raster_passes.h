@@ -6,7 +6,7 @@
 
 namespace froxel::render {
 
-void recordRasterClear(const FrameContext& frame); // clears words and counts
+void recordRasterClear(const FrameContext& frame); // clears words and batches
 // Writes the list of visible meshlets; culls: not of all.
 void recordRasterCull(const FrameContext& frame, bool culls);
 // Of which each batch is drawn by two passes, one batch after another.

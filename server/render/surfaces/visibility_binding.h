@@ -23,13 +23,13 @@ inline void pushVisibilityWords(const FrameContext& frame, const std::array<uint
                                            vk::ShaderStageFlagBits::eCompute, 0, words);
 }
 
-// Of a culling dispatch.
-inline uint32_t cullFlags(const FrameContext& frame, bool culls) {
-    return (culls ? 0U : io::kKeepAll) | (frame.visibility->ordered() ? io::kOrdered : 0U);
-}
-
-inline bool hasLevels(const VisibilityScene& scene) {
-    return *scene.details.handle != vk::Buffer{};
+// A culling pass over all placed meshlets; culls: not of all.
+inline void dispatchCull(const FrameContext& frame, vk::Pipeline pipeline, bool culls) {
+    const auto& scene = *frame.visibility;
+    bindVisibilityCompute(frame, pipeline);
+    const uint32_t flags = (culls ? 0U : io::kKeepAll) | (scene.ordered() ? io::kOrdered : 0U);
+    pushVisibilityWords(frame, {flags, static_cast<uint32_t>(scene.groups.size())});
+    frame.slot.cmd.dispatch(scene.block_count, 1, 1);
 }
 
 } // namespace froxel::render

@@ -107,18 +107,13 @@ void recordEmptyDraws(const FrameContext& frame) {
 
 void recordCull(const FrameContext& frame, bool culls) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCull);
-    bindVisibilityCompute(frame, frame.visibility->pipelines.cull(hasLevels(*frame.visibility)));
-    pushVisibilityWords(
-        frame, {cullFlags(frame, culls), static_cast<uint32_t>(frame.visibility->groups.size())});
-    frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
+    const auto& scene = *frame.visibility;
+    dispatchCull(frame, scene.pipelines.cull(scene.hasLevels()), culls);
 }
 
 void recordCompact(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCompact);
-    bindVisibilityCompute(frame, frame.visibility->pipelines.compact());
-    pushVisibilityWords(
-        frame, {cullFlags(frame, true), static_cast<uint32_t>(frame.visibility->groups.size())});
-    frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
+    dispatchCull(frame, frame.visibility->pipelines.compact(), true);
 }
 
 void recordVisibility(const FrameContext& frame, const vk::Rect2D& region) {

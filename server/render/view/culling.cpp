@@ -14,8 +14,10 @@ bool byIds(GeometryPath path) {
     return path == GeometryPath::kVisibility || path == GeometryPath::kComputeRaster;
 }
 
-bool choosesIds(const FrameInputs& inputs, const SceneResources& scene, const ScenePose& pose) {
-    const Detail detail = scene.detailOf(inputs.settings);
+bool choosesIds(const FrameInputs& inputs,
+                const SceneResources& scene,
+                const ScenePose& pose,
+                Detail detail) {
     using settings::LightingStage;
     const auto& traits = scene.shared.device.traits();
     if (inputs.settings.debug.view == settings::DebugView::kOverdraw) {
@@ -41,11 +43,11 @@ bool choosesIds(const FrameInputs& inputs, const SceneResources& scene, const Sc
 
 bool choosesComputeRaster(const FrameInputs& inputs,
                           const SceneResources& scene,
-                          const ScenePose& pose) {
+                          const ScenePose& pose,
+                          Detail detail) {
     const bool wanted =
         inputs.geometry == GeometryPath::kComputeRaster ||
         (inputs.geometry == GeometryPath::kAuto && !scene.shared.device.traits().is_cpu);
-    const Detail detail = scene.detailOf(inputs.settings);
     return wanted && pose.materialSet()->visibility(detail).compute_unusable.empty();
 }
 
@@ -56,14 +58,13 @@ bool choosesComputeRaster(const FrameInputs& inputs,
 void Culling::start(const FrameInputs& inputs,
                     const ScenePose& pose,
                     const ViewProjection& projection) {
-    detail_ = scene_.detailOf(inputs.settings);
-    geometry_ = !choosesIds(inputs, scene_, pose)            ? SolidGeometry::kRaster
-                : choosesComputeRaster(inputs, scene_, pose) ? SolidGeometry::kComputeIds
-                                                             : SolidGeometry::kIds;
+    const Detail detail = scene_.detailOf(inputs.settings.geometry_error_px);
+    geometry_ = !choosesIds(inputs, scene_, pose, detail)            ? SolidGeometry::kRaster
+                : choosesComputeRaster(inputs, scene_, pose, detail) ? SolidGeometry::kComputeIds
+                                                                     : SolidGeometry::kIds;
     culls_ = {.camera = inputs.settings.camera,
               .size = inputs.settings.size,
-              .geometry_error_px =
-                  detail_ == Detail::kExact ? 0 : inputs.settings.geometry_error_px,
+              .geometry_error_px = detail == Detail::kExact ? 0 : inputs.settings.geometry_error_px,
               .pose = pose.number(),
               .by_ids = geometry_ != SolidGeometry::kRaster,
               .order = inputs.settings.transparency == settings::Transparency::kSorted
@@ -85,7 +86,8 @@ void Culling::build(const ScenePose& pose, const ViewProjection& projection) {
                   scene_.shared.device.traits().is_cpu, !by_ids, order, draws_);
     if (by_ids) {
         placeInstances(pose.instances(), camera, draws_.rows, instances_);
-        orderMeshlets(pose.materialSet()->visibility(detail_), draws_.rows, meshlet_order_);
+        orderMeshlets(pose.materialSet()->visibility(scene_.detailOf(geometry_error_px)),
+                      draws_.rows, meshlet_order_);
     }
 }
 

@@ -52,7 +52,6 @@ class Culling {
     std::optional<Culled> culled_; // what draws_ is of; none: of nothing whole
     Culled culls_;                 // what it will be of
     uint64_t number_ = 0;
-    Detail detail_ = Detail::kExact;
     DrawList draws_;
     std::vector<vk::DrawIndexedIndirectCommand> placed_commands_; // of draws_, as gathered
     std::vector<io::InstanceView> instances_;                     // where ids are drawn

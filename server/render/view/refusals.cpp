@@ -99,7 +99,7 @@ peelable(const FrameInputs& inputs, const SceneResources& scene, const MaterialS
 
 Result<void>
 canDraw(const FrameInputs& inputs, const SceneResources& scene, MaterialSet& material_set) {
-    const Detail detail = scene.detailOf(inputs.settings);
+    const Detail detail = scene.detailOf(inputs.settings.geometry_error_px);
     if (const auto& why = material_set.visibilityUnusable(detail);
         !why.empty() && needsVisibility(inputs)) {
         return Error{ErrorCode::kUnsupported, "lighting: compute is not available for renderer " +

@@ -23,6 +23,10 @@ RenderDevice::RenderDevice(gpu::Device& device,
 
 RenderDevice::~RenderDevice() = default;
 
+const SceneOptions& RenderDevice::sceneOptions() const {
+    return resources_->scene_options;
+}
+
 void RenderDevice::makeVariantsInBackground(int niceness, unsigned thread_count) {
     resources_->variants.start(niceness, thread_count);
     if (!resources_->device.traits().is_cpu) {

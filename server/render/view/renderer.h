@@ -55,6 +55,7 @@ class RenderDevice {
     void makeVariantsInBackground(int niceness, unsigned thread_count);
 
     [[nodiscard]] DeviceResources& resources() { return *resources_; }
+    [[nodiscard]] const SceneOptions& sceneOptions() const;
 
   private:
     std::unique_ptr<DeviceResources> resources_;

@@ -195,7 +195,9 @@ Result<void> ViewFrames::recordBuilt(FrameSlot& slot,
     prepareTargets(slot, plan, size);
     slot.material_set = host_work_.pose().materialSet();
     slot.visibility =
-        plan.byIds() ? &slot.material_set->visibility(scene_.detailOf(inputs.settings)) : nullptr;
+        plan.byIds()
+            ? &slot.material_set->visibility(scene_.detailOf(inputs.settings.geometry_error_px))
+            : nullptr;
     host_work_.upload(slot, steps_.ofFrame());
     const Seconds fine = partOf(timeOf(prices_), limits.piece * piece_share_);
     const Seconds piece = std::max(limits.piece, fine);

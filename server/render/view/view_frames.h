@@ -55,7 +55,7 @@ class ViewFrames {
     [[nodiscard]] const ViewTargets* targets() const { return targets_.get(); }
     [[nodiscard]] MaterialSet& materialSet() const { return *host_work_.pose().materialSet(); }
     [[nodiscard]] Detail detail() const {
-        return scene_.detailOf(host_work_.stepInputs().settings);
+        return scene_.detailOf(host_work_.stepInputs().settings.geometry_error_px);
     }
     [[nodiscard]] const ViewSteps& steps() const { return steps_; }
     // Of the passes of the frame begun last.
