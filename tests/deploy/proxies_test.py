@@ -283,7 +283,7 @@ class Proxies(unittest.IsolatedAsyncioTestCase):
         """One server is full, the other empty: who is new gets in, who was cut comes back to its own."""
         # Nobody here looks at pictures; that must not make room.
         full = Server("--max-sessions", "3", "--paused-seconds", "1000")
-        empty = Server("--max-sessions", "12", "--paused-seconds", "1000")
+        empty = Server("--max-sessions", "40", "--paused-seconds", "1000")
         for server in (full, empty):
             self.addCleanup(server.end)
         for server in (full, empty):
@@ -293,7 +293,7 @@ class Proxies(unittest.IsolatedAsyncioTestCase):
         await asyncio.sleep(2.5)  # HAProxy knows who is well
         held = []
         while full.metric("froxel_viewers") == 0:
-            self.assertLess(len(held), 10, "the proxy sends nobody to the first server")
+            self.assertLess(len(held), 30, "the proxy sends nobody to the first server")  # nginx: once in 2^30 runs
             held.append(await Session().open(url))
         cut = held[-1]
         while full.metric("froxel_sessions") < 3:
@@ -321,7 +321,7 @@ class Proxies(unittest.IsolatedAsyncioTestCase):
 
         comes_back_to: whether a room that moved stays where it is when its first server is back.
         """
-        servers = [Server("--max-sessions", "12"), Server("--max-sessions", "12")]
+        servers = [Server("--max-sessions", "40"), Server("--max-sessions", "40")]
         for server in servers:
             self.addCleanup(server.end)
         for server in servers:
@@ -330,13 +330,19 @@ class Proxies(unittest.IsolatedAsyncioTestCase):
         await eventually(lambda: listens(port))
         await asyncio.sleep(2.5)  # HAProxy knows who is well
         page = url.replace("/ws", "/rooms/ws")  # as the page connects
-        rooms = [f"room-{number}" for number in range(8)]
-        for room in rooms:
+
+        # The proxy hashes names over servers whose ports differ at each run: eight names share one server once in
+        # 128 runs, 40 once in 2^39.
+        def sessions():
+            return [server.metric("froxel_sessions") for server in servers]
+
+        rooms = []
+        while len(rooms) < 8 or min(sessions()) == 0:
+            self.assertLess(len(rooms), 40, "rooms are spread")
+            rooms.append(f"room-{len(rooms)}")
             for address in (url, page, url):
-                await Session().open(address, room=room)
-        sessions = [server.metric("froxel_sessions") for server in servers]
-        self.assertEqual(sum(sessions), len(rooms), "each room is on one server alone")
-        self.assertGreater(min(sessions), 0, "rooms are spread")
+                await Session().open(address, room=rooms[-1])
+        self.assertEqual(sum(sessions()), len(rooms), "each room is on one server alone")
         self.assertEqual(sum(server.metric("froxel_viewers") for server in servers), 3 * len(rooms))
 
         # A server ends: everybody of its rooms meets on the other one.
