@@ -50,13 +50,13 @@ std::vector<uint32_t> visibleMeshlets(const render::PackedGeometry& packed,
                                       const std::set<Corners>& visible) {
     std::vector<uint32_t> kept;
     for (uint32_t m = 0; m < primitive.meshlet_count; ++m) {
-        const auto& meshlet = packed.meshlets[primitive.first_meshlet + m];
+        const auto& meshlet = packed.triangles.meshlets[primitive.first_meshlet + m];
         bool shows = false;
         for (uint32_t i = 0; i < meshlet.index_count && !shows; i += 3) {
-            shows = visible.contains(cornersAt(packed.indices, meshlet.first_index + i));
+            shows = visible.contains(cornersAt(packed.triangles.indices, meshlet.first_index + i));
         }
         if (shows) {
-            const auto first = packed.indices.begin() + meshlet.first_index;
+            const auto first = packed.triangles.indices.begin() + meshlet.first_index;
             kept.insert(kept.end(), first, first + meshlet.index_count);
         }
     }

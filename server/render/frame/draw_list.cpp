@@ -1,5 +1,6 @@
 #include "render/frame/draw_list.h"
 
+#include "core/parallel.h"
 #include "interface/constants.h"
 #include "render/frame/covered_part.h"
 #include "render/frame/detail_choice.h"
@@ -8,7 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
+#include <ranges>
 #include <span>
 #include <tuple>
 
@@ -83,19 +84,26 @@ uint32_t distanceBucket(float distance_m) {
 // Neighbouring meshlets that make one draw, and their place in the culled indices.
 struct Run {
     std::span<const Visible> meshlets;
+    size_t meshlets_before; // of the runs before it
     uint32_t first = 0;
     uint32_t end = 0;
 };
+
+// Of a run at most, so that threads get equal shares.
+constexpr size_t kMostOfRun = 256;
+// Culled by triangle, they keep a thread busy for longer than its start takes.
+constexpr size_t kLeastOfThread = 256;
 
 template <class Same>
 std::vector<Run> splitRuns(std::span<const Visible> visible, Same same) {
     std::vector<Run> runs;
     for (size_t first = 0; first < visible.size();) {
+        const size_t most = std::min(visible.size(), first + kMostOfRun);
         size_t end = first + 1;
-        while (end < visible.size() && same(visible[first], visible[end])) {
+        while (end < most && same(visible[first], visible[end])) {
             ++end;
         }
-        runs.push_back({visible.subspan(first, end - first)});
+        runs.push_back({visible.subspan(first, end - first), first});
         first = end;
     }
     return runs;
@@ -272,36 +280,43 @@ void Builder::cullRun(Run& run, std::vector<uint32_t>& indices) const {
     run.first = static_cast<uint32_t>(indices.size());
     for (const Visible& v : run.meshlets) {
         const Meshlet& m = scene_.meshlets[v.meshlet];
-        const auto triangles = std::span(scene_.indices).subspan(m.first_index, m.index_count);
-        if (item.bends) {
-            indices.insert(indices.end(), triangles.begin(), triangles.end());
-        } else {
+        const MeshletTriangles triangles(m, scene_.meshlet_words);
+        if (!item.bends) {
             appendVisibleTriangles(cull, triangles, positions, indices);
+            continue;
+        }
+        for (const uint32_t triangle : triangles.triangles) {
+            for (const uint32_t corner : {0U, 1U, 2U}) {
+                indices.push_back(triangles.vertices[localVertex(triangle, corner)]);
+            }
         }
     }
     run.end = static_cast<uint32_t>(indices.size());
 }
 
-// Culls all runs into DrawList::indices: the far half on another thread, then moved behind the
-// near.
+// Culls all runs into DrawList::indices. Each thread takes neighbouring runs.
 void Builder::cullRuns(std::span<Run> runs) {
-    const auto near_half = runs.first(runs.size() / 2);
-    const auto far_half = runs.subspan(runs.size() / 2);
-    out_.far_indices.clear();
-    auto culling = std::async(std::launch::async, [&] {
-        for (Run& run : far_half) {
-            cullRun(run, out_.far_indices);
+    const size_t count = runs.back().meshlets_before + runs.back().meshlets.size();
+    const size_t threads = threadCount(count, kLeastOfThread);
+    const auto runAt = [&](size_t meshlet) {
+        return std::ranges::lower_bound(runs, meshlet, {}, &Run::meshlets_before);
+    };
+    auto& parts = out_.thread_indices;
+    parts.resize(std::max(parts.size(), threads));
+    onThreads(count, threads, [&](size_t thread, size_t begin, size_t end) {
+        parts[thread].clear();
+        for (Run& run : std::ranges::subrange(runAt(begin), runAt(end))) {
+            cullRun(run, parts[thread]);
         }
     });
-    for (Run& run : near_half) {
-        cullRun(run, out_.indices);
-    }
-    culling.get();
-    const auto offset = static_cast<uint32_t>(out_.indices.size());
-    out_.indices.insert(out_.indices.end(), out_.far_indices.begin(), out_.far_indices.end());
-    for (Run& run : far_half) {
-        run.first += offset;
-        run.end += offset;
+    for (size_t thread = 0; thread < threads; ++thread) {
+        const auto offset = static_cast<uint32_t>(out_.indices.size());
+        out_.indices.insert(out_.indices.end(), parts[thread].begin(), parts[thread].end());
+        for (Run& run : std::ranges::subrange(runAt(count * thread / threads),
+                                              runAt(count * (thread + 1) / threads))) {
+            run.first += offset;
+            run.end += offset;
+        }
     }
 }
 

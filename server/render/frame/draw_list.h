@@ -37,8 +37,8 @@ struct DrawList {
     std::vector<DrawGroup> transparent;                   // in the order asked for
     uint32_t transparent_triangle_count = 0;              // of these
     std::vector<vk::Rect2D> transparent_parts; // of the picture, that hold a meshlet each
-    std::vector<uint32_t> indices;     // culled by triangle; empty: commands index the scene's own
-    std::vector<uint32_t> far_indices; // scratch of the culling
+    std::vector<uint32_t> indices; // culled by triangle; empty: commands index the scene's own
+    std::vector<std::vector<uint32_t>> thread_indices; // scratch of the culling
     uint32_t triangle_count = 0;
 };
 

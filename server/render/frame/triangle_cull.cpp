@@ -13,99 +13,90 @@ constexpr float kSlack_px = 1.0F / 64.0F;
 // A corner this near to the eye plane may be clipped: keep its triangle.
 constexpr float kSmallestW = 1e-4F;
 
-// A corner in the picture, in pixels from its middle, y down, and the pixels whose centres may be
-// on either side of it: those of a triangle lie from the least `from` to the greatest `to`.
+// A vertex in the picture, in pixels from its middle, y down, and the pixels whose centres may be
+// on either side of it, as {from x, from y, -to x, -to y}: a triangle's are the least of each.
+using Pixels __attribute__((vector_size(16))) = float; // of GCC and Clang: one operation for all
 struct Corner {
-    glm::vec2 at;
-    glm::ivec2 from;
-    glm::ivec2 to;
-    bool ahead; // of the eye; else the others say nothing
+    Pixels pixels;
+    float x;
+    float y;
 };
 
-int roundedUp(float value) {
-    const auto whole = static_cast<int>(value);
-    return whole + (value > static_cast<float>(whole) ? 1 : 0);
+Pixels least(Pixels a, Pixels b) {
+    return a < b ? a : b;
 }
 
-Corner project(const TriangleCull& cull, const glm::vec3& p) {
+Pixels roundedUp(Pixels values) {
+    using Whole __attribute__((vector_size(16))) = int;
+    const Pixels whole = __builtin_convertvector(__builtin_convertvector(values, Whole), Pixels);
+    return values > whole ? whole + 1.0F : whole;
+}
+
+// False: it says nothing, since it is not ahead of the eye.
+bool project(const TriangleCull& cull, const glm::vec3& p, Corner& corner) {
     const glm::vec4 clip = cull.clip_from_object * glm::vec4(p, 1.0F);
     const float inv_w = 1.0F / clip.w;
-    const glm::vec2 at = glm::vec2(clip) * inv_w * cull.half_size_px;
+    corner.x = clip.x * inv_w * cull.half_size_px.x;
+    corner.y = clip.y * inv_w * cull.half_size_px.y;
     // Centres lie at k + 0.5. Far outside one place is as good as another.
-    const glm::vec2 centres =
-        glm::clamp(at + cull.half_size_px - 0.5F, glm::vec2(-1e6F), glm::vec2(1e6F));
-    return {at,
-            {roundedUp(centres.x - kSlack_px), roundedUp(centres.y - kSlack_px)},
-            {-roundedUp(-centres.x - kSlack_px), -roundedUp(-centres.y - kSlack_px)},
-            clip.w > kSmallestW};
+    constexpr Pixels kFar = {1e6F, 1e6F, 1e6F, 1e6F};
+    const float x = corner.x + cull.half_size_px.x - 0.5F;
+    const float y = corner.y + cull.half_size_px.y - 0.5F;
+    const Pixels from = Pixels{x, y, -x, -y} - kSlack_px;
+    corner.pixels = roundedUp(-least(-least(from, kFar), kFar));
+    return clip.w > kSmallestW;
 }
 
-bool visible(const TriangleCull& cull,
-             const glm::ivec2& last_pixel,
-             const Corner& a,
-             const Corner& b,
-             const Corner& c) {
-    if (!(a.ahead && b.ahead && c.ahead)) {
-        return true;
-    }
-    const glm::ivec2 from = glm::max(glm::min(glm::min(a.from, b.from), c.from), glm::ivec2(0));
-    const glm::ivec2 to = glm::min(glm::max(glm::max(a.to, b.to), c.to), last_pixel);
-    if (from.x > to.x || from.y > to.y) {
+// picture: its pixels, as Corner::pixels.
+bool visible(
+    const TriangleCull& cull, Pixels picture, const Corner& a, const Corner& b, const Corner& c) {
+    const Pixels of_triangle = least(least(a.pixels, b.pixels), c.pixels);
+    const Pixels pixels = of_triangle > picture ? of_triangle : picture;
+    if (pixels[0] + pixels[2] > 0 || pixels[1] + pixels[3] > 0) {
         return false;
     }
-    if (cull.cull_back) {
-        // Twice the area, positive where counter-clockwise as seen (y down turns the sign).
-        const glm::vec2 ab = b.at - a.at;
-        const glm::vec2 ac = c.at - a.at;
-        const float area = ac.x * ab.y - ab.x * ac.y;
-        const glm::vec2 size =
-            glm::max(glm::max(a.at, b.at), c.at) - glm::min(glm::min(a.at, b.at), c.at);
-        const float slack = 2.0F * kSlack_px * (size.x + size.y + kSlack_px);
-        return (cull.mirrored ? -area : area) > -slack;
+    if (!cull.cull_back) {
+        return true;
     }
-    return true;
+    // Twice the area, positive where counter-clockwise as seen (y down turns the sign).
+    const glm::vec2 ab(b.x - a.x, b.y - a.y);
+    const glm::vec2 ac(c.x - a.x, c.y - a.y);
+    const float area = ac.x * ab.y - ab.x * ac.y;
+    // No less than the triangle's width and height.
+    const float extent = std::abs(ab.x) + std::abs(ab.y) + std::abs(ac.x) + std::abs(ac.y);
+    const float slack = 2.0F * kSlack_px * (extent + kSlack_px);
+    return (cull.mirrored ? -area : area) > -slack;
 }
 
-// Corners that neighbouring triangles share are projected once, mostly: a direct-mapped cache by
-// vertex. Meshlets have 96 vertices and four times as many corners.
-class Projected {
-  public:
-    Projected(const TriangleCull& cull, std::span<const glm::vec3> positions)
-        : cull_(cull), positions_(positions) {
-        vertices_.fill(kNone);
-    }
-    const Corner& at(uint32_t vertex) {
-        const uint32_t place = vertex % kPlaces;
-        if (vertices_[place] != vertex) {
-            vertices_[place] = vertex;
-            corners_[place] = project(cull_, positions_[vertex]);
-        }
-        return corners_[place];
-    }
-
-  private:
-    static constexpr uint32_t kPlaces = 512;
-    static constexpr uint32_t kNone = 0xffffffff;
-    const TriangleCull& cull_;
-    std::span<const glm::vec3> positions_;
-    std::array<uint32_t, kPlaces> vertices_;
-    std::array<Corner, kPlaces> corners_;
-};
+constexpr size_t kMostVertices = 256;
+constexpr size_t kAhead = 8; // vertices that memory brings while others are projected
 
 } // namespace
 
 void appendVisibleTriangles(const TriangleCull& cull,
-                            std::span<const uint32_t> indices,
+                            const MeshletTriangles& meshlet,
                             std::span<const glm::vec3> positions,
                             std::vector<uint32_t>& out) {
-    Projected projected(cull, positions);
-    const glm::ivec2 last_pixel(cull.half_size_px * 2.0F - 1.0F);
-    for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-        // Copies: another corner may take a place.
-        const Corner a = projected.at(indices[i]);
-        const Corner b = projected.at(indices[i + 1]);
-        if (visible(cull, last_pixel, a, b, projected.at(indices[i + 2]))) {
-            out.insert(out.end(), {indices[i], indices[i + 1], indices[i + 2]});
+    std::array<Corner, kMostVertices> corners; // NOLINT(*-member-init): those in use are set
+    std::array<bool, kMostVertices> ahead;     // NOLINT(*-member-init)
+    bool all_ahead = true;
+    const auto& vertices = meshlet.vertices;
+    for (size_t i = 0; i < vertices.size(); ++i) {
+        if (i + kAhead < vertices.size()) {
+            __builtin_prefetch(&positions[vertices[i + kAhead]]);
+        }
+        ahead[i] = project(cull, positions[vertices[i]], corners[i]);
+        all_ahead = all_ahead && ahead[i];
+    }
+    // From the picture's first pixel to its last.
+    const Pixels picture = {0, 0, 1 - 2 * cull.half_size_px.x, 1 - 2 * cull.half_size_px.y};
+    for (const uint32_t triangle : meshlet.triangles) {
+        const uint32_t a = localVertex(triangle, 0);
+        const uint32_t b = localVertex(triangle, 1);
+        const uint32_t c = localVertex(triangle, 2);
+        if ((!all_ahead && !(ahead[a] && ahead[b] && ahead[c])) ||
+            visible(cull, picture, corners[a], corners[b], corners[c])) {
+            out.insert(out.end(), {vertices[a], vertices[b], vertices[c]});
         }
     }
 }

@@ -19,9 +19,9 @@ struct TriangleCull {
     bool mirrored = false; // the instance turns the winding round
 };
 
-// Appends the surviving triangles' indices to `out`. indices: 3 per triangle, into positions.
+// Appends the surviving triangles' indices into positions to `out`.
 void appendVisibleTriangles(const TriangleCull& cull,
-                            std::span<const uint32_t> indices,
+                            const MeshletTriangles& meshlet,
                             std::span<const glm::vec3> positions,
                             std::vector<uint32_t>& out);
 

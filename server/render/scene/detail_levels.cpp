@@ -363,14 +363,9 @@ class LevelBuilder {
         return coarser;
     }
     void append(Simplified simplified, std::vector<uint32_t>& next) {
-        auto& [indices, meshlets] = out_.coarser;
-        const auto first = static_cast<uint32_t>(indices.size());
-        indices.insert(indices.end(), simplified.list.indices.begin(),
-                       simplified.list.indices.end());
-        for (Meshlet meshlet : simplified.list.meshlets) {
-            meshlet.first_index += first;
+        render::append(out_.coarser, simplified.list);
+        for (size_t i = 0; i < simplified.list.meshlets.size(); ++i) {
             next.push_back(static_cast<uint32_t>(out_.details.size()));
-            meshlets.push_back(meshlet);
             out_.details.push_back({.own = simplified.error});
         }
         for (auto& followers : simplified.followers) {

@@ -86,33 +86,23 @@ size_t threadsFor(size_t count, size_t triangle_count) {
 }
 
 void appendParts(std::vector<Part> parts, PackedGeometry& out) {
-    std::vector<std::pair<size_t, size_t>> firsts; // index and meshlet of each part
-    size_t index_count = 0;
-    size_t meshlet_count = 0;
+    std::vector<MeshletPlace> places;
+    MeshletPlace end;
     for (const Part& part : parts) {
         PackedPrimitive& primitive = *part.primitive;
         if (primitive.meshlet_count == 0) {
-            primitive.first_index = static_cast<uint32_t>(index_count);
-            primitive.first_meshlet = static_cast<uint32_t>(meshlet_count);
+            primitive.first_index = static_cast<uint32_t>(end.index);
+            primitive.first_meshlet = static_cast<uint32_t>(end.meshlet);
         }
-        firsts.emplace_back(index_count, meshlet_count);
-        index_count += part.cut.indices.size();
-        meshlet_count += part.cut.meshlets.size();
+        places.push_back(end);
+        end = behind(end, part.cut);
         primitive.index_count += static_cast<uint32_t>(part.cut.indices.size());
         primitive.meshlet_count += static_cast<uint32_t>(part.cut.meshlets.size());
     }
-    out.indices.resize(index_count);
-    out.meshlets.resize(meshlet_count);
-    eachOnThreads(parts.size(), threadsFor(parts.size(), index_count / 3), [&](size_t i) {
-        Part& part = parts[i];
-        const auto& [first_index, first_meshlet] = firsts[i];
-        std::ranges::copy(part.cut.indices,
-                          out.indices.begin() + static_cast<ptrdiff_t>(first_index));
-        for (size_t m = 0; m < part.cut.meshlets.size(); ++m) {
-            out.meshlets[first_meshlet + m] = part.cut.meshlets[m];
-            out.meshlets[first_meshlet + m].first_index += static_cast<uint32_t>(first_index);
-        }
-        part = {};
+    resize(out.triangles, end);
+    eachOnThreads(parts.size(), threadsFor(parts.size(), end.index / 3), [&](size_t i) {
+        copyTo(out.triangles, places[i], parts[i].cut);
+        parts[i] = {};
     });
 }
 
@@ -128,35 +118,29 @@ std::vector<bool> bentMeshes(const scene::Scene& scene) {
 
 void appendCoarserLevels(const scene::Scene& scene, PackedGeometry& out) {
     const std::vector<bool> bent = bentMeshes(scene);
-    std::vector<uint32_t> indices;
-    std::vector<Meshlet> meshlets;
-    out.details.resize(out.meshlets.size());
-    const auto first_index = static_cast<uint32_t>(out.indices.size());
+    const std::span<const Meshlet> exact = out.triangles.meshlets;
+    MeshletList coarser;
+    out.details.resize(exact.size());
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
         for (size_t p = 0; p < out.meshes[m].size() && !bent[m]; ++p) {
             PackedPrimitive& primitive = out.meshes[m][p];
-            DetailLevels levels = buildDetailLevels(
-                scene.meshes[m].primitives[p].positions, out.indices,
-                std::span(out.meshlets).subspan(primitive.first_meshlet, primitive.meshlet_count));
-            const auto exact = levels.details.begin() + primitive.meshlet_count;
-            std::copy(levels.details.begin(), exact, out.details.begin() + primitive.first_meshlet);
-            out.details.insert(out.details.end(), exact, levels.details.end());
+            const DetailLevels levels =
+                buildDetailLevels(scene.meshes[m].primitives[p].positions, out.triangles.indices,
+                                  exact.subspan(primitive.first_meshlet, primitive.meshlet_count));
+            const auto of_coarser = levels.details.begin() + primitive.meshlet_count;
+            std::copy(levels.details.begin(), of_coarser,
+                      out.details.begin() + primitive.first_meshlet);
+            out.details.insert(out.details.end(), of_coarser, levels.details.end());
             primitive.first_coarser_meshlet =
-                static_cast<uint32_t>(out.meshlets.size() + meshlets.size());
+                static_cast<uint32_t>(exact.size() + coarser.meshlets.size());
             primitive.coarser_meshlet_count = static_cast<uint32_t>(levels.coarser.meshlets.size());
-            for (Meshlet meshlet : levels.coarser.meshlets) {
-                meshlet.first_index += first_index + static_cast<uint32_t>(indices.size());
-                meshlets.push_back(meshlet);
-            }
-            indices.insert(indices.end(), levels.coarser.indices.begin(),
-                           levels.coarser.indices.end());
+            append(coarser, levels.coarser);
         }
     }
-    out.indices.insert(out.indices.end(), indices.begin(), indices.end());
-    out.meshlets.insert(out.meshlets.end(), meshlets.begin(), meshlets.end());
-    if (meshlets.empty()) {
+    if (coarser.meshlets.empty()) {
         out.details.clear();
     }
+    append(out.triangles, coarser);
 }
 
 } // namespace

@@ -49,8 +49,7 @@ struct PackedGeometry {
     std::vector<glm::vec3> positions;
     std::vector<SurfaceVertex> surfaces;
     std::vector<ExtendedVertex> extended;
-    std::vector<uint32_t> indices;      // of the scene's triangles; then of coarser levels
-    std::vector<Meshlet> meshlets;      // likewise
+    MeshletList triangles;              // the scene's; then those of coarser levels
     std::vector<MeshletDetail> details; // of each meshlet; empty: there are no coarser levels
     std::vector<std::vector<PackedPrimitive>> meshes; // as in scene::Scene::meshes
 };

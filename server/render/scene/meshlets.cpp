@@ -1,5 +1,6 @@
 #include "render/scene/meshlets.h"
 
+#include <algorithm>
 #include <bit>
 #include <meshoptimizer.h>
 
@@ -59,6 +60,7 @@ MeshletList cutIntoMeshlets(const LocalTriangles& local, std::span<const uint32_
                                           kConeWeight));
     MeshletList list;
     list.indices.reserve(ordered.size());
+    list.words.reserve(ordered.size() / 3 * 2);
     list.meshlets.reserve(meshlets.size());
     for (const auto& meshlet : meshlets) {
         const auto bounds = meshopt_computeMeshletBounds(
@@ -67,16 +69,61 @@ MeshletList cutIntoMeshlets(const LocalTriangles& local, std::span<const uint32_
         list.meshlets.push_back(
             {.first_index = static_cast<uint32_t>(list.indices.size()),
              .index_count = meshlet.triangle_count * 3,
+             .first_word = static_cast<uint32_t>(list.words.size()),
+             .vertex_count = meshlet.vertex_count,
              .center = {bounds.center[0], bounds.center[1], bounds.center[2]},
              .radius = bounds.radius,
              .cone_axis = {bounds.cone_axis[0], bounds.cone_axis[1], bounds.cone_axis[2]},
              .cone_cutoff = bounds.cone_cutoff});
-        for (size_t i = 0; i < meshlet.triangle_count * 3; ++i) {
-            const unsigned char corner = triangles[meshlet.triangle_offset + i];
-            list.indices.push_back(local.original(vertices[meshlet.vertex_offset + corner]));
+        for (size_t i = 0; i < meshlet.vertex_count; ++i) {
+            list.words.push_back(local.original(vertices[meshlet.vertex_offset + i]));
+        }
+        for (size_t i = 0; i < meshlet.triangle_count; ++i) {
+            uint32_t triangle = 0;
+            for (size_t k = 0; k < 3; ++k) {
+                const uint32_t corner = triangles[meshlet.triangle_offset + 3 * i + k];
+                list.indices.push_back(local.original(vertices[meshlet.vertex_offset + corner]));
+                triangle |= corner << 8 * k;
+            }
+            list.words.push_back(triangle);
         }
     }
     return list;
+}
+
+MeshletPlace endOf(const MeshletList& list) {
+    return behind({}, list);
+}
+
+MeshletPlace behind(const MeshletPlace& at, const MeshletList& part) {
+    return {at.index + part.indices.size(), at.word + part.words.size(),
+            at.meshlet + part.meshlets.size()};
+}
+
+void resize(MeshletList& list, const MeshletPlace& end) {
+    list.indices.resize(end.index);
+    list.words.resize(end.word);
+    list.meshlets.resize(end.meshlet);
+}
+
+void copyTo(MeshletList& list, const MeshletPlace& at, const MeshletList& part) {
+    const auto copy = [](const auto& from, auto& to, size_t first) {
+        std::ranges::copy(from, to.begin() + static_cast<ptrdiff_t>(first));
+    };
+    copy(part.indices, list.indices, at.index);
+    copy(part.words, list.words, at.word);
+    for (size_t i = 0; i < part.meshlets.size(); ++i) {
+        Meshlet& meshlet = list.meshlets[at.meshlet + i];
+        meshlet = part.meshlets[i];
+        meshlet.first_index += static_cast<uint32_t>(at.index);
+        meshlet.first_word += static_cast<uint32_t>(at.word);
+    }
+}
+
+void append(MeshletList& list, const MeshletList& part) {
+    const MeshletPlace at = endOf(list);
+    resize(list, behind(at, part));
+    copyTo(list, at, part);
 }
 
 } // namespace froxel::render

@@ -16,6 +16,8 @@ namespace froxel::render {
 struct Meshlet {
     uint32_t first_index = 0;
     uint32_t index_count = 0;
+    uint32_t first_word = 0; // MeshletList::words
+    uint32_t vertex_count = 0;
     glm::vec3 center{0};
     float radius = 0;
     glm::vec3 cone_axis{0};
@@ -51,8 +53,39 @@ struct LocalTriangles {
 
 struct MeshletList {
     std::vector<uint32_t> indices; // of the mesh's vertices, meshlet by meshlet
-    std::vector<Meshlet> meshlets; // whose first_index is in these
+    // Of each meshlet its vertices, as indices of the mesh's; then a word a triangle: three of
+    // those vertices, by number, 8 bits each, the first lowest.
+    std::vector<uint32_t> words;
+    std::vector<Meshlet> meshlets;
 };
+
+// A meshlet of a list's words.
+struct MeshletTriangles {
+    MeshletTriangles(const Meshlet& meshlet, std::span<const uint32_t> words)
+        : vertices(words.subspan(meshlet.first_word, meshlet.vertex_count)),
+          triangles(
+              words.subspan(meshlet.first_word + meshlet.vertex_count, meshlet.index_count / 3)) {}
+    std::span<const uint32_t> vertices;
+    std::span<const uint32_t> triangles;
+};
+// The number of a triangle's vertex; corner: 0 to 2.
+[[nodiscard]] constexpr uint32_t localVertex(uint32_t triangle, uint32_t corner) {
+    return triangle >> 8 * corner & 0xffU;
+}
+
+// The sizes of a list, or where a part of it begins.
+struct MeshletPlace {
+    size_t index = 0;
+    size_t word = 0;
+    size_t meshlet = 0;
+};
+[[nodiscard]] MeshletPlace endOf(const MeshletList& list);
+// Adds the sizes of `part`.
+[[nodiscard]] MeshletPlace behind(const MeshletPlace& at, const MeshletList& part);
+void resize(MeshletList& list, const MeshletPlace& end);
+// Copies a part to its place in a list that is large enough.
+void copyTo(MeshletList& list, const MeshletPlace& at, const MeshletList& part);
+void append(MeshletList& list, const MeshletList& part);
 
 // The triangles, each once, with their winding. `indices`: 3 a triangle, into the vertices of
 // `local`, which are the triangles' own or some of them. Pure.

@@ -152,7 +152,7 @@ SceneResources::SceneResources(DeviceResources& shared_in,
     instances = placesOf(scene, motion.get());
     auto items = makeItems(scene, geometry, needs, motion.get(), instances);
     keepVariantMaterials(scene, geometry);
-    meshlets = std::move(geometry.meshlets);
+    meshlets = std::move(geometry.triangles.meshlets);
     details = std::move(geometry.details);
     uploadGeometry(std::move(geometry), uploader);
     uploadMaterials(scene, uploader);
@@ -174,16 +174,15 @@ void SceneResources::uploadGeometry(PackedGeometry&& geometry, gpu::Uploader& up
     }
     constexpr auto kIndices = Usage::eIndexBuffer | Usage::eStorageBuffer;
     if (shared.device.traits().is_cpu) {
-        indices = std::move(geometry.indices);
+        meshlet_words = std::move(geometry.triangles.words);
         positions = std::move(geometry.positions);
         position_buffer = uploadVector(arena, uploader, positions, vertices, "positions");
-        index_buffer = uploadVector(arena, uploader, indices, kIndices, "indices");
     } else {
         position_buffer =
             uploadVector(arena, uploader, std::move(geometry.positions), vertices, "positions");
-        index_buffer =
-            uploadVector(arena, uploader, std::move(geometry.indices), kIndices, "indices");
     }
+    index_buffer =
+        uploadVector(arena, uploader, std::move(geometry.triangles.indices), kIndices, "indices");
     surface_buffer =
         uploadVector(arena, uploader, std::move(geometry.surfaces), vertices, "surface vertices");
     if (!geometry.extended.empty()) {

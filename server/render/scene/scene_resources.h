@@ -45,7 +45,7 @@ class SceneResources {
     std::vector<Meshlet> meshlets;
     std::vector<MeshletDetail> details; // of each; empty: there are no coarser levels
     // The host's copies, for culling by triangle; empty on a GPU, which does not.
-    std::vector<uint32_t> indices;
+    std::vector<uint32_t> meshlet_words; // MeshletList::words
     std::vector<glm::vec3> positions;
     std::unique_ptr<const SceneMotion> motion; // null: all of it rests
 

@@ -57,7 +57,7 @@ class IdNames {
         const auto found = std::find_if(packed.begin(), packed.end(), holds);
         FROXEL_ASSERT(found != packed.end(), "a meshlet belongs to a primitive of its mesh");
         const auto primitive = static_cast<uint32_t>(found - packed.begin());
-        const auto* corner = &geometry_.indices[first];
+        const auto* corner = &geometry_.triangles.indices[first];
         const auto& triangles = trianglesOf(mesh, primitive);
         const auto triangle = triangles.find(fromLowest({corner[0], corner[1], corner[2]}));
         FROXEL_ASSERT(triangle != triangles.end(), "packing makes no triangles");

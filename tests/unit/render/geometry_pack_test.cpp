@@ -44,6 +44,17 @@ std::vector<Triangle> sortedTriangles(std::span<const uint32_t> indices) {
     return out;
 }
 
+void expectWordsAreIndices(const MeshletList& list) {
+    for (const Meshlet& meshlet : list.meshlets) {
+        const MeshletTriangles words(meshlet, list.words);
+        for (uint32_t i = 0; i < meshlet.index_count; ++i) {
+            const uint32_t local = localVertex(words.triangles[i / 3], i % 3);
+            ASSERT_LT(local, words.vertices.size());
+            EXPECT_EQ(words.vertices[local], list.indices[meshlet.first_index + i]);
+        }
+    }
+}
+
 } // namespace
 
 TEST(GeometryPack, Meshlets_CoverEveryTriangleOnceWithItsWinding) {
@@ -51,19 +62,20 @@ TEST(GeometryPack, Meshlets_CoverEveryTriangleOnceWithItsWinding) {
     scene.meshes.push_back({"fan", {fan(500, false)}});
     const auto packed = packGeometry(scene);
     const auto& p = packed.meshes[0][0];
-    EXPECT_EQ(sortedTriangles(packed.indices),
+    EXPECT_EQ(sortedTriangles(packed.triangles.indices),
               sortedTriangles(scene.meshes[0].primitives[0].indices));
     uint32_t next = p.first_index;
-    for (const auto& meshlet : packed.meshlets) {
+    for (const auto& meshlet : packed.triangles.meshlets) {
         EXPECT_EQ(meshlet.first_index, next);
         next += meshlet.index_count;
         for (uint32_t i = 0; i < meshlet.index_count; ++i) {
-            const auto& at = packed.positions[packed.indices[meshlet.first_index + i]];
+            const auto& at = packed.positions[packed.triangles.indices[meshlet.first_index + i]];
             EXPECT_LE(glm::distance(at, meshlet.center), meshlet.radius * 1.0001F + 1e-6F);
         }
     }
     EXPECT_EQ(next, p.first_index + p.index_count);
-    EXPECT_GT(packed.meshlets.size(), 1U);
+    EXPECT_GT(packed.triangles.meshlets.size(), 1U);
+    expectWordsAreIndices(packed.triangles);
 }
 
 TEST(GeometryPack, ManyTriangles_AreCutIntoPartsThatCoverEachOnce) {
@@ -71,26 +83,29 @@ TEST(GeometryPack, ManyTriangles_AreCutIntoPartsThatCoverEachOnce) {
     scene.meshes.push_back({"fans", {fan(40, false), fan(900, false), fan(41, true)}});
     const auto packed = packGeometry(scene, {.most_at_once = 100});
     const auto again = packGeometry(scene, {.most_at_once = 100});
-    EXPECT_EQ(packed.indices, again.indices);
+    EXPECT_EQ(packed.triangles.indices, again.triangles.indices);
+    EXPECT_EQ(packed.triangles.words, again.triangles.words);
+    expectWordsAreIndices(packed.triangles);
     uint32_t next_meshlet = 0;
     for (const size_t p : {2U, 0U, 1U}) { // in the order of vertices
         SCOPED_TRACE(p);
         const auto& primitive = packed.meshes[0][p];
         const auto& source = scene.meshes[0].primitives[p];
-        const auto indices =
-            std::span(packed.indices).subspan(primitive.first_index, primitive.index_count);
+        const auto indices = std::span(packed.triangles.indices)
+                                 .subspan(primitive.first_index, primitive.index_count);
         EXPECT_EQ(sortedTriangles(indices), sortedTriangles(source.indices));
         EXPECT_EQ(primitive.first_meshlet, next_meshlet);
         next_meshlet += primitive.meshlet_count;
         EXPECT_GE(primitive.meshlet_count, source.indices.size() / 300);
         uint32_t next = primitive.first_index;
-        for (const auto& meshlet :
-             std::span(packed.meshlets).subspan(primitive.first_meshlet, primitive.meshlet_count)) {
+        for (const auto& meshlet : std::span(packed.triangles.meshlets)
+                                       .subspan(primitive.first_meshlet, primitive.meshlet_count)) {
             EXPECT_EQ(meshlet.first_index, next);
             EXPECT_LE(meshlet.index_count, 300U);
             next += meshlet.index_count;
             for (uint32_t i = 0; i < meshlet.index_count; ++i) {
-                const auto& at = source.positions[packed.indices[meshlet.first_index + i]];
+                const auto& at =
+                    source.positions[packed.triangles.indices[meshlet.first_index + i]];
                 EXPECT_LE(glm::distance(at, meshlet.center), meshlet.radius * 1.0001F + 1e-6F);
             }
         }
@@ -101,7 +116,7 @@ TEST(GeometryPack, ManyTriangles_AreCutIntoPartsThatCoverEachOnce) {
             EXPECT_EQ(packed.surfaces[at].normal, source.normals[i]);
         }
     }
-    EXPECT_EQ(next_meshlet, packed.meshlets.size());
+    EXPECT_EQ(next_meshlet, packed.triangles.meshlets.size());
 }
 
 TEST(GeometryPack, ExtendedPrimitives_ComeFirst_SoThatStreamsShareOffsets) {

@@ -18,9 +18,9 @@ TriangleCull screen(bool cull_back = true) {
 }
 
 bool kept(const TriangleCull& cull, const std::array<glm::vec3, 3>& corners) {
-    const std::array<uint32_t, 3> indices = {0, 1, 2};
+    const std::array<uint32_t, 4> words = {0, 1, 2, 0x020100};
     std::vector<uint32_t> out;
-    appendVisibleTriangles(cull, indices, corners, out);
+    appendVisibleTriangles(cull, {{.index_count = 3, .vertex_count = 3}, words}, corners, out);
     return !out.empty();
 }
 
@@ -71,6 +71,21 @@ TEST(TriangleCull, CornerBehindTheEye_IsKept) {
     cull.clip_from_object[3][3] = 0; // w = z
     cull.clip_from_object[2][3] = 1;
     EXPECT_TRUE(kept(cull, {glm::vec3{0, 0, -1}, glm::vec3{1, 0, 1}, glm::vec3{0, 1, 1}}));
+}
+
+TEST(TriangleCull, TrianglesOfAMeshlet_AreLookedAtOneByOne) {
+    auto cull = screen();
+    cull.clip_from_object[2][3] = 1; // w = 1 + z
+    std::vector<glm::vec3> corners(kFront.begin(), kFront.end());
+    corners.emplace_back(0, -0.9F, -2); // behind the eye
+    corners.emplace_back(3, 0.5F, 0);   // beside the picture, as these
+    corners.emplace_back(3, -0.5F, 0);
+    corners.emplace_back(4, 0, 0);
+    const std::array<uint32_t, 12> words = {6, 5,        4,        3,        2,        1,
+                                            0, 0x040506, 0x050406, 0x000102, 0x010002, 0x030406};
+    std::vector<uint32_t> out = {7};
+    appendVisibleTriangles(cull, {{.index_count = 15, .vertex_count = 7}, words}, corners, out);
+    EXPECT_EQ(out, (std::vector<uint32_t>{7, 0, 1, 2, 0, 2, 3}));
 }
 
 // Whatever covers a pixel centre by exact arithmetic, snapped to 1/256 pixel or not, is kept.
