@@ -33,16 +33,17 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     uint lane = gl_LocalInvocationIndex;
     uint placed = placedAt(i);
-    PlacedMeshlet m = meshlets[placed];
-    MeshletGroup group = groups[m.draw_group];
+    PlacedMeshlet m = placed_meshlets[placed];
+    VisibleItem item = items[m.item];
+    MeshletGroup group = groups[item.draw_group];
     uint before = countBefore(group.first_block, lane);
     uint rank = ranks[i];
     if (rank != kCulled) {
-        DrawCommand draw =
-            DrawCommand(m.index_count, 1u, m.first_index, items[m.item].vertex_offset, placed);
+        DrawCommand draw = DrawCommand(meshlets[m.meshlet].index_count, 1u, m.first_index,
+                                       item.vertex_offset, placed);
         commands[group.first_block * kCullGroup + before + rank] = draw;
     }
     if (lane == 0 && gl_WorkGroupID.x + 1 == group.first_block + group.block_count) {
-        counts[m.draw_group] = before + counts[group_count + gl_WorkGroupID.x];
+        counts[item.draw_group] = before + counts[group_count + gl_WorkGroupID.x];
     }
 }

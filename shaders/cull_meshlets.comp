@@ -50,7 +50,7 @@ bool outside(InstanceView view, vec3 center, float radius) {
                   center, radius);
 }
 
-bool facesAway(InstanceView view, PlacedMeshlet m, uint flags) {
+bool facesAway(InstanceView view, Meshlet m, uint flags) {
     // An eye too far away for its object space (a singular or tiny scale) says nothing.
     bool known = frame.camera.orthographic == 0.0 && all(lessThan(abs(view.eye_object), vec3(1e6)));
     if (!known || (flags & kMaterialDoubleSided) != 0 || m.cone_cutoff >= 1.0) {
@@ -60,6 +60,24 @@ bool facesAway(InstanceView view, PlacedMeshlet m, uint flags) {
     float rounding = kRounding * length(view.eye_object);
     return dot(toward, m.cone_axis) >=
            m.cone_cutoff * length(toward) + m.radius * (1.0 + kSlack) + kSlack + rounding;
+}
+
+bool isVisible(PlacedMeshlet placed) {
+    if (placed.meshlet == kNoMeshlet) {
+        return false;
+    }
+    VisibleItem item = items[placed.item];
+    InstanceView view = instances[item.instance];
+#ifdef FROXEL_DETAIL
+    if (!drawsDetail(view, details[placed.meshlet])) {
+        return false;
+    }
+#endif
+    if ((cull_flags & kKeepAll) != 0u || item.bends != 0u) {
+        return true;
+    }
+    Meshlet m = meshlets[placed.meshlet];
+    return !outside(view, m.center, m.radius) && !facesAway(view, m, item.flags);
 }
 
 shared uint scan[kCullGroup];
@@ -84,16 +102,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     uint lane = gl_LocalInvocationIndex;
     uint placed = placedAt(i);
-    PlacedMeshlet m = meshlets[placed];
-    bool visible = m.index_count > 0;
-#ifdef FROXEL_DETAIL
-    visible = visible && drawsDetail(instances[items[m.item].instance], details[placed]);
-#endif
-    if (visible && (cull_flags & kKeepAll) == 0u) {
-        VisibleItem item = items[m.item];
-        InstanceView view = instances[item.instance];
-        visible = !outside(view, m.center, m.radius) && !facesAway(view, m, item.flags);
-    }
+    bool visible = isVisible(placed_meshlets[placed]);
     scan[lane] = visible ? 1u : 0u;
     barrier();
     for (uint step = 1; step < kCullGroup; step *= 2) {

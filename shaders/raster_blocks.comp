@@ -74,7 +74,7 @@ void drawClipped(ClipTriangle t, bool mirrored, VisibleItem item, uint id, uvec2
 }
 
 void drawLarge(LargeTriangle large, uint of_box) {
-    PlacedMeshlet placed = meshlets[large.id >> kTriangleBits];
+    PlacedMeshlet placed = placed_meshlets[large.id >> kTriangleBits];
     VisibleItem item = items[placed.item];
     if (!drawsItem(item)) {
         return;

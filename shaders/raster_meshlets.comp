@@ -1,5 +1,5 @@
-// Rasters the triangles of visible meshlets, a workgroup a meshlet: an invocation sets up a
-// triangle, then the rows of all small ones are shared out. Large ones are left to
+// Rasters the triangles of visible meshlets, a workgroup a meshlet: an invocation projects a vertex
+// and sets up a triangle, then the rows of all small ones are shared out. Large ones are left to
 // raster_blocks.comp.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -29,6 +29,8 @@ struct SmallTriangle {
     uint width;
 };
 
+shared Corner corners[kMeshletVertices];
+shared bool corners_drawable[kMeshletVertices];
 shared SmallTriangle small[kRasterGroup];
 shared uint rows_until[kRasterGroup]; // of this triangle and those before it
 
@@ -69,26 +71,35 @@ void boxOfClipped(ClipTriangle t, out ivec2 low, out ivec2 high) {
     high = ivec2(ceil((ndc_high + 1.0) * halfSize())) + 1;
 }
 
-// Sets up the invocation's triangle; the rows that its workgroup draws, 0 where there is nothing or
-// where it is left to the second pass.
-uint prepare(PlacedMeshlet placed, VisibleItem item, uint id, uint lane) {
-    InstanceView view = instances[item.instance];
-    ClipTriangle t = clipTriangle(placed, item, view, lane);
-    bool whole = drawable(t.a) && drawable(t.b) && drawable(t.c);
+// Of the meshlet's vertices, one an invocation.
+void projectVertices(Meshlet m, VisibleItem item, InstanceView view, uint lane) {
+    if (lane < m.vertex_count) {
+        vec4 clip = clipVertex(view, meshlet_words[m.first_word + lane] + item.vertex_offset);
+        corners_drawable[lane] = drawable(clip);
+        corners[lane] = toScreen(clip);
+    }
+}
+
+// Sets up the invocation's triangle, of the vertices that the word names; the rows that its
+// workgroup draws, 0 where there is nothing or where it is left to the second pass.
+uint prepare(PlacedMeshlet placed, VisibleItem item, InstanceView view, uint word, uint id) {
+    uint lane = gl_LocalInvocationIndex;
+    uvec3 v = uvec3(word, word >> 8, word >> 16) & 0xffu;
+    bool whole = corners_drawable[v.x] && corners_drawable[v.y] && corners_drawable[v.z];
     ivec2 low;
     ivec2 high;
     Corner a;
     Corner b;
     Corner c;
     if (whole) {
-        a = toScreen(t.a);
-        b = toScreen(t.b);
-        c = toScreen(t.c);
+        a = corners[v.x];
+        b = corners[v.y];
+        c = corners[v.z];
         const int kHalf = 1 << int(kSubpixelBits - 1u);
         low = (min(min(a.at, b.at), c.at) + (kHalf - 1)) >> int(kSubpixelBits);
         high = (max(max(a.at, b.at), c.at) - kHalf) >> int(kSubpixelBits);
     } else {
-        boxOfClipped(t, low, high);
+        boxOfClipped(clipTriangle(placed, item, view, lane), low, high);
     }
     low = max(low, ivec2(0));
     high = min(high, ivec2(frame.camera.width_px, frame.camera.height_px) - 1);
@@ -144,14 +155,22 @@ uint triangleOfRow(uint row) {
 
 void main() {
     uint meshlet = visible_meshlets[batches[batch].first + gl_WorkGroupID.x];
-    PlacedMeshlet placed = meshlets[meshlet];
+    PlacedMeshlet placed = placed_meshlets[meshlet];
     VisibleItem item = items[placed.item];
     if (!drawsItem(item)) {
         return;
     }
+    Meshlet m = meshlets[placed.meshlet];
+    InstanceView view = instances[item.instance];
     uint lane = gl_LocalInvocationIndex;
+    projectVertices(m, item, view, lane);
+    barrier();
     uint first_id = meshlet << kTriangleBits;
-    uint rows = 3u * lane < placed.index_count ? prepare(placed, item, first_id | lane, lane) : 0u;
+    uint rows = 0;
+    if (3u * lane < m.index_count) {
+        uint word = meshlet_words[m.first_word + m.vertex_count + lane];
+        rows = prepare(placed, item, view, word, first_id | lane);
+    }
     rows_until[lane] = rows;
     barrier();
     for (uint step = 1; step < kRasterGroup; step *= 2) {

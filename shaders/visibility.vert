@@ -28,7 +28,7 @@ vec4 view_from_object_2;
 #include "lib/project.glsl"
 
 void main() {
-    InstanceView view = instances[items[meshlets[gl_InstanceIndex].item].instance];
+    InstanceView view = instances[items[placed_meshlets[gl_InstanceIndex].item].instance];
     view_from_object_0 = view.row0;
     view_from_object_1 = view.row1;
     view_from_object_2 = view.row2;

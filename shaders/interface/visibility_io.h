@@ -27,33 +27,20 @@ struct VisibleItem {
     uint material_index;
     uint flags;    // material flags
     uint textures; // a bit a slot
+    uint draw_group;
+    uint bends; // 1: the bounds of its meshlets say nothing
 };
-FROXEL_SIZE_ASSERT(VisibleItem, 20);
+FROXEL_SIZE_ASSERT(VisibleItem, 28);
 
-// A meshlet of an item, and its bounds in object space (render::Meshlet).
+// A meshlet of an item. meshlet: kNoMeshlet fills up a workgroup. first_index: the meshlet's, at
+// hand for those who have an id.
+FROXEL_CONST uint kNoMeshlet = 0xffffffffU;
 struct PlacedMeshlet {
     uint item;
+    uint meshlet;
     uint first_index;
-    uint index_count; // 0: fills up a workgroup
-    float radius;
-    vec3 center;
-    float cone_cutoff;
-    vec3 cone_axis;
-    uint draw_group;
 };
-FROXEL_SIZE_ASSERT(PlacedMeshlet, 48);
-
-// render::DetailError, and a placed meshlet's two.
-struct DetailError {
-    vec3 center;
-    float radius;
-    float error;
-};
-struct PlacedDetail {
-    DetailError own;
-    DetailError coarser;
-};
-FROXEL_SIZE_ASSERT(PlacedDetail, 40);
+FROXEL_SIZE_ASSERT(PlacedMeshlet, 12);
 
 // Meshlets drawn with one pipeline and material: a run of workgroups and of draw commands.
 struct MeshletGroup {

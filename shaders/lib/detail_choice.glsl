@@ -1,5 +1,5 @@
 // Which meshlets of a mesh with coarser levels a view takes: as render::DetailChoice.
-layout(set = 2, binding = 21, scalar) readonly buffer DetailBlock { PlacedDetail details[]; };
+layout(set = 2, binding = 21, scalar) readonly buffer DetailBlock { MeshletDetail details[]; };
 
 // No less than the largest scale of the instance, and that where axes stay orthogonal.
 float largestScale(InstanceView view) {
@@ -36,7 +36,7 @@ bool isEnough(InstanceView view, float scale, DetailError detail) {
     return error_px * oblique <= frame.camera.geometry_error_px * depth;
 }
 
-bool drawsDetail(InstanceView view, PlacedDetail detail) {
+bool drawsDetail(InstanceView view, MeshletDetail detail) {
     float scale = largestScale(view);
     return isEnough(view, scale, detail.own) && !isEnough(view, scale, detail.coarser);
 }

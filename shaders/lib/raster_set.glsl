@@ -7,3 +7,4 @@ layout(set = 2, binding = 15, scalar) buffer WordBlock { uint64_t words[]; };
 layout(set = 2, binding = 16, scalar) buffer RasterBatchBlock { RasterBatch batches[]; };
 layout(set = 2, binding = 17, scalar) buffer VisibleBlock { uint visible_meshlets[]; };
 layout(set = 2, binding = 18, scalar) buffer LargeBlock { LargeTriangle large_triangles[]; };
+layout(set = 2, binding = 23, scalar) readonly buffer WordsBlock { uint meshlet_words[]; };

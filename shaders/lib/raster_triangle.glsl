@@ -14,15 +14,18 @@ struct ClipTriangle {
     vec4 c;
 };
 
+vec4 clipVertex(InstanceView view, uint vertex) {
+    view_from_object_0 = view.row0;
+    view_from_object_1 = view.row1;
+    view_from_object_2 = view.row2;
+    return project(toView(positions[vertex]));
+}
+
 ClipTriangle clipTriangle(PlacedMeshlet placed, VisibleItem item, InstanceView view,
                           uint triangle) {
     uint first = placed.first_index + 3u * triangle;
     uvec3 v = uvec3(indices[first], indices[first + 1u], indices[first + 2u]) + item.vertex_offset;
-    view_from_object_0 = view.row0;
-    view_from_object_1 = view.row1;
-    view_from_object_2 = view.row2;
-    return ClipTriangle(project(toView(positions[v.x])), project(toView(positions[v.y])),
-                        project(toView(positions[v.z])));
+    return ClipTriangle(clipVertex(view, v.x), clipVertex(view, v.y), clipVertex(view, v.z));
 }
 
 vec2 halfSize() { return 0.5 * vec2(frame.camera.width_px, frame.camera.height_px); }

@@ -9,7 +9,7 @@ layout(push_constant) uniform ResolveBlock {
 
 // Whether this dispatch shades a pixel that shows `id`.
 bool mine(uint id) {
-    uint item = meshlets[id >> kTriangleBits].item;
+    uint item = placed_meshlets[id >> kTriangleBits].item;
     bool asked = only_material == kAnyMaterial || items[item].material_index == only_material;
     if ((resolve_flags & kResolveLayers) != 0u) {
         asked = asked && (items[item].flags & kMaterialLayers) != 0u;

@@ -19,7 +19,7 @@ vec3 viewPoint(InstanceView view, vec3 position_object) {
 }
 
 VisibleTriangle fetchTriangle(uint id) {
-    PlacedMeshlet placed = meshlets[id >> kTriangleBits];
+    PlacedMeshlet placed = placed_meshlets[id >> kTriangleBits];
     uint first = placed.first_index + 3u * (id & ((1u << kTriangleBits) - 1u));
     VisibleTriangle t;
     t.item = placed.item;

@@ -16,7 +16,7 @@ using Stage = vk::ShaderStageFlagBits;
 vk::raii::DescriptorSetLayout geometryLayout(const gpu::Device& device) {
     std::array<vk::DescriptorSetLayoutBinding, VisibilityPipelines::kBindings> bindings;
     for (uint32_t i = 0; i < bindings.size(); ++i) {
-        const bool vertex = i == 4 || i == 5 || i == 8; // items, meshlets, instances
+        const bool vertex = i == 4 || i == 5 || i == 8; // items, placed meshlets, instances
         bindings[i] = {.binding = i,
                        .descriptorType = VisibilityPipelines::bindingType(i),
                        .descriptorCount = 1,

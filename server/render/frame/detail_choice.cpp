@@ -42,7 +42,7 @@ bool DetailChoice::isEnough(const DetailError& detail) const {
         return true;
     }
     const float error_px = pixels_ * scale_ * detail.error;
-    if (!perspective_ || !(error_px < kNothingCoarser)) {
+    if (!perspective_ || !(error_px < io::kNothingCoarser.error)) {
         return error_px <= error_px_;
     }
     const glm::vec4 center(detail.center, 1.0F);

@@ -11,11 +11,8 @@ namespace {
 // Eight an octave of distance: the exponent of its square and two bits more.
 constexpr uint32_t kBuckets = 1U << 10U;
 
-uint32_t bucketOf(const io::PlacedMeshlet& m, const InstanceRows& rows) {
-    if (m.index_count == 0) {
-        return kBuckets - 1;
-    }
-    const glm::vec4 p(m.center, 1.0F);
+uint32_t bucketOf(const glm::vec3& center, const InstanceRows& rows) {
+    const glm::vec4 p(center, 1.0F);
     const glm::vec3 view(glm::dot(rows.row[0], p), glm::dot(rows.row[1], p),
                          glm::dot(rows.row[2], p));
     return std::bit_cast<uint32_t>(glm::dot(view, view)) >> 21U & (kBuckets - 1);
@@ -42,6 +39,7 @@ void placeInstances(std::span<const glm::dmat4> world_from_objects,
 }
 
 void orderMeshlets(const VisibilityScene& visibility,
+                   std::span<const Meshlet> meshlets,
                    std::span<const InstanceRows> rows,
                    std::vector<uint32_t>& order) {
     const auto& placed = visibility.placed;
@@ -54,7 +52,10 @@ void orderMeshlets(const VisibilityScene& visibility,
         const size_t first = size_t{group.blocks.first_block} * io::kCullGroup;
         const size_t end = first + size_t{group.blocks.block_count} * io::kCullGroup;
         const auto bucket = [&](size_t i) {
-            return bucketOf(placed[i], rows[visibility.item_instances[placed[i].item]]);
+            const auto& [item, meshlet, first_index] = placed[i];
+            return meshlet == io::kNoMeshlet
+                       ? kBuckets - 1
+                       : bucketOf(meshlets[meshlet].center, rows[visibility.item_instances[item]]);
         };
         std::array<uint32_t, kBuckets + 1> starts{};
         for (size_t i = first; i < end; ++i) {

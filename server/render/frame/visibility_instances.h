@@ -20,6 +20,7 @@ void placeInstances(std::span<const glm::dmat4> world_from_objects,
 // depth test. In buckets of distance, and in their own order inside one. None where
 // VisibilityScene::ordered() says so. Pure.
 void orderMeshlets(const VisibilityScene& visibility,
+                   std::span<const Meshlet> meshlets,
                    std::span<const InstanceRows> rows,
                    std::vector<uint32_t>& order);
 

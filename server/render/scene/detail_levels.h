@@ -7,29 +7,13 @@
 #include "render/scene/meshlets.h"
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 namespace froxel::render {
 
-// A surface that stands for a finer one, which lies within the sphere: how far the two are apart,
-// in object space.
-struct DetailError {
-    glm::vec3 center{0};
-    float radius = 0;
-    float error = 0; // no less than that of what it was made of
-};
-
-inline constexpr float kNothingCoarser = std::numeric_limits<float>::infinity();
-
-// A meshlet is to be drawn where its own error is small enough and that of the coarser surface that
-// replaces it is not. Of all meshlets over a place exactly one is, if a smaller error is found for
-// what a surface was made of than for itself.
-struct MeshletDetail {
-    DetailError own;                             // 0: the mesh itself
-    DetailError coarser{{}, 0, kNothingCoarser}; // by default nothing replaces it
-};
+using io::DetailError;
+using io::MeshletDetail;
 
 struct DetailLevels {
     MeshletList coarser;                // meshlets of all levels but the mesh itself

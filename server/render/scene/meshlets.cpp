@@ -8,8 +8,9 @@ namespace froxel::render {
 namespace {
 
 // Small meshlets cull well and still amortise a draw; meshoptimizer wants a multiple of 4.
-constexpr size_t kMeshletVertices = 96;
-constexpr size_t kMeshletTriangles = 124;
+using io::kMeshletTriangles;
+using io::kMeshletVertices;
+static_assert(kMeshletTriangles % 4 == 0);
 constexpr float kConeWeight = 0.5F;
 
 constexpr uint32_t kFree = 0xffffffffU;
@@ -50,8 +51,8 @@ MeshletList cutIntoMeshlets(const LocalTriangles& local, std::span<const uint32_
     const size_t bound =
         meshopt_buildMeshletsBound(ordered.size(), kMeshletVertices, kMeshletTriangles);
     std::vector<meshopt_Meshlet> meshlets(bound);
-    std::vector<uint32_t> vertices(bound * kMeshletVertices);
-    std::vector<unsigned char> triangles(bound * kMeshletTriangles * 3);
+    std::vector<uint32_t> vertices(bound * size_t{kMeshletVertices});
+    std::vector<unsigned char> triangles(bound * size_t{kMeshletTriangles} * 3);
     const float* positions = &local.positions.front().x;
     const size_t vertex_count = local.positions.size();
     meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(),

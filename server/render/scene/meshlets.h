@@ -1,6 +1,8 @@
 // Triangles cut into meshlets: runs of neighbours that can be culled, and replaced, by themselves.
 #pragma once
 
+#include "interface/meshlet_io.h"
+
 #include <glm/glm.hpp>
 
 #include <cstddef>
@@ -10,19 +12,7 @@
 
 namespace froxel::render {
 
-// A run of triangles with its bounding sphere and normal cone, in object space. All of its
-// triangles face away from an eye where dot(normalize(center - eye), axis) >= cutoff + radius term;
-// cone_cutoff of 1 means never (meshoptimizer, meshopt_computeMeshletBounds).
-struct Meshlet {
-    uint32_t first_index = 0;
-    uint32_t index_count = 0;
-    uint32_t first_word = 0; // MeshletList::words
-    uint32_t vertex_count = 0;
-    glm::vec3 center{0};
-    float radius = 0;
-    glm::vec3 cone_axis{0};
-    float cone_cutoff = 1;
-};
+using io::Meshlet;
 
 // Some of the triangles of a mesh by themselves, with indices of their own, since meshoptimizer
 // makes arrays of as many vertices as there are.
@@ -53,9 +43,7 @@ struct LocalTriangles {
 
 struct MeshletList {
     std::vector<uint32_t> indices; // of the mesh's vertices, meshlet by meshlet
-    // Of each meshlet its vertices, as indices of the mesh's; then a word a triangle: three of
-    // those vertices, by number, 8 bits each, the first lowest.
-    std::vector<uint32_t> words;
+    std::vector<uint32_t> words;   // Meshlet::first_word
     std::vector<Meshlet> meshlets;
 };
 

@@ -180,6 +180,10 @@ void SceneResources::uploadGeometry(PackedGeometry&& geometry, gpu::Uploader& up
     } else {
         position_buffer =
             uploadVector(arena, uploader, std::move(geometry.positions), vertices, "positions");
+        if (shared.device.traits().int64_atomics) {
+            word_buffer = uploadVector(arena, uploader, std::move(geometry.triangles.words),
+                                       Usage::eStorageBuffer, "meshlet words");
+        }
     }
     index_buffer =
         uploadVector(arena, uploader, std::move(geometry.triangles.indices), kIndices, "indices");

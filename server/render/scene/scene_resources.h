@@ -55,6 +55,8 @@ class SceneResources {
     gpu::Buffer surface_buffer;
     gpu::Buffer extended_buffer; // empty handle: no primitive needs it
     gpu::Buffer index_buffer;
+    // MeshletList::words, where a GPU rasters by them; a CPU's rare frames that do have their own.
+    gpu::Buffer word_buffer;
     std::vector<io::Material> material_uniforms;
     std::vector<vk::DescriptorImageInfo> material_textures; // kMaterialSlots of each
     // Fragments that pass the depth test, per pixel of the picture: of the first frame that the

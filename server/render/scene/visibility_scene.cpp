@@ -18,9 +18,6 @@ using Usage = vk::BufferUsageFlagBits;
 
 constexpr size_t kMostMeshlets = size_t{1} << (32 - io::kTriangleBits);
 
-// Of meshlets that bend: larger than any scene, and far from the end of single precision.
-constexpr float kAnywhere_m = 1e18F;
-
 // The flags that tell the raster pass's pipelines apart: all of a masked material's, else its
 // faces.
 MaterialFlags rasterFlags(const DrawItem& item) {
@@ -65,7 +62,6 @@ class Placer {
 
     std::vector<io::VisibleItem> items;
     std::vector<io::PlacedMeshlet> meshlets;
-    std::vector<io::PlacedDetail> details; // of each, with levels
     std::vector<VisibilityGroup> groups;
     uint32_t triangle_count = 0;
 
@@ -78,12 +74,8 @@ class Placer {
             return;
         }
         while (meshlets.size() % io::kCullGroup != 0) {
-            io::PlacedMeshlet filler{};
-            filler.draw_group = static_cast<uint32_t>(groups.size()) - 1;
-            meshlets.push_back(filler);
-        }
-        if (with_levels_) {
-            details.resize(meshlets.size());
+            const auto any_of_group = static_cast<uint32_t>(items.size()) - 1;
+            meshlets.push_back({any_of_group, io::kNoMeshlet, 0});
         }
         auto& blocks = groups.back().blocks;
         blocks.block_count = blockCount() - blocks.first_block;
@@ -93,39 +85,39 @@ class Placer {
         const auto item_index = static_cast<uint32_t>(items.size());
         items.push_back({item.instance, static_cast<uint32_t>(primitive.vertex_offset),
                          primitive.material, featuresOf(item.material_flags),
-                         texturesOf(item.material_flags)});
-        place(item, item_index, primitive.first_meshlet, primitive.meshlet_count);
+                         texturesOf(item.material_flags), static_cast<uint32_t>(groups.size()) - 1,
+                         item.bends ? 1U : 0U});
+        place(item_index, primitive.first_meshlet, primitive.meshlet_count);
         if (with_levels_) {
-            place(item, item_index, primitive.first_coarser_meshlet,
-                  primitive.coarser_meshlet_count);
+            place(item_index, primitive.first_coarser_meshlet, primitive.coarser_meshlet_count);
         }
     }
-    void place(const DrawItem& item, uint32_t item_index, uint32_t first, uint32_t count) {
+    void place(uint32_t item_index, uint32_t first, uint32_t count) {
         for (uint32_t i = first; i < first + count; ++i) {
             const Meshlet& m = scene_.meshlets[i];
             FROXEL_ASSERT(m.index_count <= 3U << io::kTriangleBits,
                           "an id has bits for every triangle of a meshlet");
-            meshlets.push_back({item_index, m.first_index, m.index_count,
-                                item.bends ? kAnywhere_m : m.radius, m.center,
-                                item.bends ? 1.0F : m.cone_cutoff, m.cone_axis,
-                                static_cast<uint32_t>(groups.size()) - 1});
+            meshlets.push_back({item_index, i, m.first_index});
             triangle_count += m.index_count / 3;
-            if (with_levels_) {
-                details.push_back(placedDetail(scene_.details[i]));
-            }
         }
         groups.back().meshlet_count += count;
-    }
-    static io::PlacedDetail placedDetail(const MeshletDetail& detail) {
-        const auto of = [](const DetailError& e) {
-            return io::DetailError{e.center, e.radius, e.error};
-        };
-        return {of(detail.own), of(detail.coarser)};
     }
 
     const SceneResources& scene_;
     const bool with_levels_;
 };
+
+// `table` stays where it is until the uploader is done.
+template <class T>
+gpu::Buffer uploadTable(gpu::MemoryArena& arena,
+                        gpu::Uploader& uploader,
+                        std::span<const T> table,
+                        std::string_view name) {
+    auto buffer = arena.makeBuffer(table.size_bytes(), Usage::eStorageBuffer | Usage::eTransferDst,
+                                   gpu::MemoryUse::kDevice, name);
+    uploader.upload(buffer, std::as_bytes(table));
+    return buffer;
+}
 
 template <class T>
 gpu::Buffer uploadTable(gpu::MemoryArena& arena,
@@ -144,9 +136,9 @@ gpu::Buffer uploadTable(gpu::MemoryArena& arena,
 std::string VisibilityScene::unusable(const SceneResources& scene,
                                       std::span<const DrawItem> drawn,
                                       Detail detail) {
-    const auto& traits = scene.shared.device.traits();
-    if (!traits.visibility_lacks.empty()) {
-        return "the device lacks " + traits.visibility_lacks;
+    const gpu::Device& device = scene.shared.device;
+    if (const auto& lacks = device.traits().visibility_lacks; !lacks.empty()) {
+        return "the device lacks " + lacks;
     }
     size_t meshlet_count = 0;
     for (const auto& item : drawn) {
@@ -158,8 +150,10 @@ std::string VisibilityScene::unusable(const SceneResources& scene,
                           : 0;
     }
     meshlet_count += size_t{io::kCullGroup} * 4 * (scene.material_uniforms.size() + 1);
-    if (meshlet_count > kMostMeshlets) {
-        return "the scene has more than " + std::to_string(kMostMeshlets) + " meshlets";
+    const size_t most = std::min(kMostMeshlets, size_t{io::kCullGroup} *
+                                                    device.limits().maxComputeWorkGroupCount[0]);
+    if (meshlet_count > most) {
+        return "the scene has more than " + std::to_string(most) + " placed meshlets";
     }
     return {};
 }
@@ -188,25 +182,45 @@ VisibilityScene::VisibilityScene(SceneResources& scene,
                            materials_in_use.end());
 
     items = uploadTable(arena, uploader, placer.items, "visible items");
-    meshlets = uploadTable(arena, uploader, placed, "placed meshlets");
+    placed_meshlets =
+        uploadTable(arena, uploader, std::span<const io::PlacedMeshlet>(placed), "placed meshlets");
+    meshlets = uploadTable(arena, uploader, std::span<const Meshlet>(scene.meshlets), "meshlets");
     if (detail == Detail::kLevels) {
-        details = uploadTable(arena, uploader, std::move(placer.details), "details of meshlets");
+        details = uploadTable(arena, uploader, std::span<const MeshletDetail>(scene.details),
+                              "details of meshlets");
     }
     group_buffer = uploadTable(arena, uploader, blocks, "meshlet groups");
     materials = uploadTable(arena, uploader, scene.material_uniforms, "materials (storage)");
-    const auto scratch = [&](size_t bytes, vk::BufferUsageFlags usage, const char* name) {
-        return arena.makeBuffer(bytes, usage | Usage::eStorageBuffer, gpu::MemoryUse::kDevice,
-                                name);
-    };
-    commands = scratch(placed.size() * sizeof(io::DrawCommand),
-                       Usage::eIndirectBuffer | Usage::eTransferDst, "culled draws");
-    ranks = scratch(placed.size() * sizeof(uint32_t), {}, "cull ranks");
-    counts = scratch((groups.size() + block_count) * sizeof(uint32_t), Usage::eIndirectBuffer,
-                     "culled draw counts");
     if (scene.texturesAtOnce() > 0) {
         writeTextures(scene);
     }
     compute_unusable = ComputeRaster::unusable(device_, *this);
+    words = *scene.word_buffer.handle;
+    if (!words && compute_unusable.empty()) {
+        own_words_ = uploadTable(arena, uploader, std::span<const uint32_t>(scene.meshlet_words),
+                                 "meshlet words");
+        words = *own_words_.handle;
+    }
+}
+
+CulledDraws::CulledDraws(const gpu::Device& device, const VisibilityScene& scene) : arena(device) {
+    const auto scratch = [&](size_t bytes, vk::BufferUsageFlags usage, const char* name) {
+        return arena.makeBuffer(bytes, usage | Usage::eStorageBuffer, gpu::MemoryUse::kDevice,
+                                name);
+    };
+    const size_t placed_count = scene.placed.size();
+    commands = scratch(placed_count * sizeof(io::DrawCommand),
+                       Usage::eIndirectBuffer | Usage::eTransferDst, "culled draws");
+    ranks = scratch(placed_count * sizeof(uint32_t), {}, "cull ranks");
+    counts = scratch((scene.groups.size() + scene.block_count) * sizeof(uint32_t),
+                     Usage::eIndirectBuffer, "culled draw counts");
+}
+
+const CulledDraws& VisibilityScene::culledDraws() {
+    if (!culled_draws_) {
+        culled_draws_ = std::make_unique<CulledDraws>(device_, *this);
+    }
+    return *culled_draws_;
 }
 
 ComputeRaster& VisibilityScene::computeRaster() {
@@ -255,16 +269,21 @@ void VisibilityFrame::write(const Bindings& bindings) {
     const auto* raster = bindings.raster;
     std::array<vk::DescriptorBufferInfo, VisibilityPipelines::kBindings> buffers = {
         all(v.positions),      all(v.surfaces),    all(v.extended ? v.extended : v.surfaces),
-        whole(r.index_buffer), whole(s.items),     whole(s.meshlets),
-        whole(s.group_buffer), whole(s.materials), bindings.instances,
-        whole(s.commands),     whole(s.ranks),     whole(s.counts),
-        bindings.order};
+        whole(r.index_buffer), whole(s.items),     whole(s.placed_meshlets),
+        whole(s.group_buffer), whole(s.materials), bindings.instances};
+    const auto* draws = bindings.draws;
+    buffers[9] = draws != nullptr ? whole(draws->commands) : none;
+    buffers[10] = draws != nullptr ? whole(draws->ranks) : none;
+    buffers[11] = draws != nullptr ? whole(draws->counts) : none;
+    buffers[12] = bindings.order;
     buffers[15] =
         raster != nullptr ? vk::DescriptorBufferInfo{bindings.words, 0, VK_WHOLE_SIZE} : none;
     buffers[16] = raster != nullptr ? whole(raster->batches) : none;
     buffers[17] = raster != nullptr ? whole(raster->meshlets) : none;
     buffers[18] = raster != nullptr ? whole(raster->large) : none;
     buffers[21] = s.hasLevels() ? whole(s.details) : none;
+    buffers[22] = whole(s.meshlets);
+    buffers[23] = raster != nullptr ? all(s.words) : none;
     std::array<vk::DescriptorImageInfo, VisibilityPipelines::kBindings> images;
     const auto image = [&](uint32_t binding, vk::ImageView view) {
         images[binding] = {.imageView = view, .imageLayout = vk::ImageLayout::eGeneral};

@@ -20,6 +20,7 @@
 namespace froxel::render {
 
 class SceneResources;
+class VisibilityScene;
 struct DrawItem;
 
 // Meshlets drawn in one call; of opaque materials one group holds all with the same faces.
@@ -33,6 +34,16 @@ struct VisibilityGroup {
 
 // Which meshlets there are: those of the scene's triangles, or of its coarser levels, too.
 enum class Detail : uint8_t { kExact, kLevels };
+
+// What culling hands on to the rasteriser; frames of all viewers follow each other on one queue.
+struct CulledDraws {
+    CulledDraws(const gpu::Device& device, const VisibilityScene& scene);
+
+    gpu::MemoryArena arena;
+    gpu::Buffer commands;
+    gpu::Buffer ranks;
+    gpu::Buffer counts;
+};
 
 class VisibilityScene {
   public:
@@ -60,16 +71,18 @@ class VisibilityScene {
 
     gpu::MemoryArena arena;
     gpu::Buffer items;
+    gpu::Buffer placed_meshlets;
     gpu::Buffer meshlets;
     gpu::Buffer details; // with levels; else none
+    vk::Buffer words;    // MeshletList::words, where compute may raster
     gpu::Buffer group_buffer;
     gpu::Buffer materials;
-    // Written by culling; frames of all viewers follow each other on one queue.
-    gpu::Buffer commands;
-    gpu::Buffer ranks;
-    gpu::Buffer counts;
 
     VisibilityPipelines& pipelines;
+
+    // Made at the first call, as nobody asks where ids are rastered in compute. Throws
+    // vk::SystemError.
+    [[nodiscard]] const CulledDraws& culledDraws();
 
     // Why ids cannot be rastered in compute; empty: they can.
     std::string compute_unusable;
@@ -87,6 +100,8 @@ class VisibilityScene {
     void writeTextures(const SceneResources& scene);
 
     const gpu::Device& device_;
+    gpu::Buffer own_words_; // where the scene has none
+    std::unique_ptr<CulledDraws> culled_draws_;
     std::unique_ptr<ComputeRaster> compute_raster_;
     vk::raii::DescriptorPool pool_{nullptr};
     vk::raii::DescriptorSet texture_set_{nullptr};
@@ -100,6 +115,7 @@ class VisibilityFrame {
     struct Bindings {
         const SceneResources& resources;
         const VisibilityScene& scene;
+        const CulledDraws* draws = nullptr; // where the rasteriser draws; else none
         VertexBuffers vertices;
         vk::DescriptorBufferInfo instances; // io::InstanceView
         vk::DescriptorBufferInfo order;     // of the placed meshlets

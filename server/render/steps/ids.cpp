@@ -109,6 +109,7 @@ void Ids::prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) {
     slot.stored.findOrMake<VisibilityFrame>(scene_.shared.device, visible)
         .write({.resources = scene_,
                 .scene = visible,
+                .draws = in_compute_ ? nullptr : &visible.culledDraws(),
                 .vertices = vertexBuffers(scene_, slot),
                 .instances = {slot.upload.buffer(), offsets.instances,
                               scene_.instances.size() * sizeof(io::InstanceView)},

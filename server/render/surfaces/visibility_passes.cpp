@@ -88,21 +88,23 @@ void drawGroup(const FrameContext& frame, uint32_t index) {
         cmd.bindDescriptorSets(Point::eGraphics, scene.pipelines.rasterLayout(), 1,
                                frame.scene.materialSet(group.material), {});
     }
+    const CulledDraws& draws = scene.culledDraws();
     constexpr uint32_t kStride = sizeof(io::DrawCommand);
     const vk::DeviceSize first =
         vk::DeviceSize{group.blocks.first_block} * io::kCullGroup * kStride;
     if (frame.scene.shared.device.traits().draw_indirect_count) {
-        cmd.drawIndexedIndirectCount(*scene.commands.handle, first, *scene.counts.handle,
+        cmd.drawIndexedIndirectCount(*draws.commands.handle, first, *draws.counts.handle,
                                      index * sizeof(uint32_t), group.meshlet_count, kStride);
     } else {
-        cmd.drawIndexedIndirect(*scene.commands.handle, first, group.meshlet_count, kStride);
+        cmd.drawIndexedIndirect(*draws.commands.handle, first, group.meshlet_count, kStride);
     }
 }
 
 } // namespace
 
 void recordEmptyDraws(const FrameContext& frame) {
-    frame.slot.cmd.fillBuffer(*frame.visibility->commands.handle, 0, VK_WHOLE_SIZE, 0);
+    frame.slot.cmd.fillBuffer(*frame.visibility->culledDraws().commands.handle, 0, VK_WHOLE_SIZE,
+                              0);
 }
 
 void recordCull(const FrameContext& frame, bool culls) {

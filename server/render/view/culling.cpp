@@ -87,7 +87,7 @@ void Culling::build(const ScenePose& pose, const ViewProjection& projection) {
     if (by_ids) {
         placeInstances(pose.instances(), camera, draws_.rows, instances_);
         orderMeshlets(pose.materialSet()->visibility(scene_.detailOf(geometry_error_px)),
-                      draws_.rows, meshlet_order_);
+                      scene_.meshlets, draws_.rows, meshlet_order_);
     }
 }
 

@@ -196,7 +196,7 @@ TEST(DetailLevels, Errors_GrowWithTheLevelsAndTheirSpheresHoldThem) {
             const auto& [own, coarser] = levels.levels.details[m];
             EXPECT_EQ(own.error == 0, m < levels.exact.meshlets.size());
             EXPECT_GE(coarser.error, own.error);
-            if (coarser.error < kNothingCoarser) {
+            if (coarser.error < io::kNothingCoarser.error) {
                 EXPECT_LE(glm::distance(own.center, coarser.center) + own.radius, coarser.radius);
             }
             for (const uint32_t vertex : levels.indicesOf(m)) {
