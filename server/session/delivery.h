@@ -18,7 +18,7 @@ namespace froxel::session {
 // What the viewer allows; part of the session's state.
 struct DeliverySettings {
     bool adaptive = true;  // lower quality, chroma and resolution where they come too late else
-    double target_fps = 0; // that a moving view keeps at the expense of resolution; 0: none
+    double target_fps = 0; // that a moving view keeps (RateKeeper); 0: none
     settings::Refine refine = settings::Refine::kNone;
     bool operator==(const DeliverySettings&) const = default;
 };
@@ -38,6 +38,7 @@ inline constexpr std::array kRefinementNames = {
 // The limits on frames of a moving view, from link and rate.
 struct Delivery {
     double scale = 1; // of each side
+    double geometry_error_px = 0;
     uint32_t quality_max = 100;
     settings::Chroma chroma_max = settings::Chroma::k444;
     double video_share = 1;  // of a video's bits a second that were asked for
@@ -59,6 +60,7 @@ struct Delivered {
     settings::Encoding encoding; // of this frame; a refined frame may have another codec
     Refinement refinement = Refinement::kInteractive;
     uint32_t rung = 0;
+    double geometry_error_px = 0; // at least, in a picture of the size asked for
 };
 
 inline constexpr settings::Encoding kRefinedEncoding{92, settings::Chroma::k444};
@@ -94,12 +96,20 @@ inline constexpr settings::Encoding kRefinedEncoding{92, settings::Chroma::k444}
             side(size.height_px, settings::kHeightRange.min)};
 }
 
+// The same view in a smaller picture.
+[[nodiscard]] inline settings::ViewSettings scaled(settings::ViewSettings settings, double scale) {
+    settings.size = scaled(settings.size, scale);
+    settings.geometry_error_px = static_cast<float>(settings.geometry_error_px * scale);
+    return settings;
+}
+
 // What a frame at this stage is made with.
 [[nodiscard]] inline Delivered
 delivered(const settings::Encoding& asked, const Delivery& delivery, Refinement stage) {
     switch (stage) {
     case Refinement::kInteractive:
-        return {delivery.scale, limited(asked, delivery), stage, delivery.rung};
+        return {delivery.scale, limited(asked, delivery), stage, delivery.rung,
+                delivery.geometry_error_px};
     case Refinement::kSettled:
         return {1, asked, stage, 0};
     case Refinement::kHigh:

@@ -15,7 +15,9 @@ inline constexpr std::array kDeliveryRows = {
         settings::Range<double>{"target_fps", 0, 240},
         "target_fps",
         {"Target frame rate",
-         "Frame rate that a moving view keeps by lowering its resolution; 0: none", "fps"}),
+         "Frame rate that a moving view keeps by a geometry error of up to 2 px, where the scene "
+         "has coarser levels, and then by lowering its resolution; 0: none",
+         "fps"}),
     settings::row<&DeliverySettings::refine>(
         settings::Names{"refine", settings::kRefineNames},
         "refine",

@@ -193,6 +193,7 @@ uint32_t saturated(T value) {
 void fillDelivery(v1::FrameHeader& out, const FrameRecord& record) {
     const Delivered& delivered = record.delivered;
     out.set_scale(delivered.scale);
+    out.set_geometry_error_px(delivered.geometry_error_px);
     const settings::CodecRow& codec = settings::rowOf(delivered.encoding.codec);
     out.set_quality(
         codec.rate_control == settings::RateControl::kQuality ? delivered.encoding.quality : 0);

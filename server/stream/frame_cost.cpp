@@ -123,10 +123,9 @@ class Series {
     [[nodiscard]] settings::ViewSettings moving() const {
         constexpr uint32_t kPlaces = 16;
         constexpr double kStep_rad = 0.01;
-        settings::ViewSettings settings = settings_;
+        settings::ViewSettings settings = session::scaled(settings_, scale_.scale());
         const auto place = static_cast<double>(begun_ / views_.size() % kPlaces);
         settings.camera = orbited(settings.camera, place * kStep_rad);
-        settings.size = session::scaled(settings.size, scale_.scale());
         return settings;
     }
 

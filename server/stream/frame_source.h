@@ -92,6 +92,8 @@ class SceneSource {
     [[nodiscard]] virtual Result<std::unique_ptr<ViewSource>> makeView() = 0;
     // Of the device's memory; any thread.
     [[nodiscard]] virtual uint64_t bytes() const { return 0; }
+    // Whether views may ask for a geometry error.
+    [[nodiscard]] virtual bool hasDetailLevels() const { return false; }
 };
 
 // A scene on its way to a device that draws others meanwhile.

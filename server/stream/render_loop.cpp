@@ -4,7 +4,7 @@
 #include "core/text.h"
 #include "core/thread_name.h"
 #include "encode/memory.h"
-#include "session/render_scale.h"
+#include "session/rate_keeper.h"
 #include "session/settings.h"
 #include "settings/samples.h"
 #include "stream/frame_cost.h"
@@ -210,7 +210,8 @@ void RenderLoop::takeState(Viewer& viewer, const ViewerNews& news) {
     viewer.blocked = viewer.blocked && !differs;
     viewer.state = *news.state;
     viewer.arrived = news.arrived;
-    viewer.render_scale.setTarget(viewer.state.delivery.target_fps);
+    viewer.rate_keeper.setTarget(viewer.state.delivery.target_fps,
+                                 sourceOf(viewer.state).hasDetailLevels());
     if (differs) {
         viewer.refinement.onChange(news.arrived);
         viewer.dropMean();
@@ -465,7 +466,9 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
     }
     const session::Delivered& with = frame.record.delivered;
     settings::ViewSettings settings = frame.state.settings;
-    settings.size = session::scaled(settings.size, with.scale);
+    settings.geometry_error_px =
+        std::max(settings.geometry_error_px, static_cast<float>(with.geometry_error_px));
+    settings = session::scaled(settings, with.scale);
     // A refined still leaves the encoder of video as it is.
     FrameTerms terms;
     terms.limit_share = viewer.affordable.limitShare();
@@ -630,7 +633,8 @@ void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame draw
         if (target_hz > 0) {
             // As if it had the device to itself, at this much a frame.
             const Seconds shared(demand_.total(now) / target_hz);
-            viewer.render_scale.onFrame(std::max(need, shared), with.scale, now);
+            viewer.rate_keeper.onFrame(std::max(need, shared), {with.scale, with.geometry_error_px},
+                                       now);
         }
     }
     if (viewer.leaving) {

@@ -149,6 +149,7 @@ class RendererScene final : public SceneSource {
         return makeViewOf(*renderer_, work_);
     }
     [[nodiscard]] uint64_t bytes() const override { return bytes_; }
+    [[nodiscard]] bool hasDetailLevels() const override { return renderer_->hasDetailLevels(); }
 
   private:
     std::unique_ptr<render::Renderer> renderer_;
@@ -212,6 +213,8 @@ class RendererSource final : public FrameSource {
     [[nodiscard]] Result<std::unique_ptr<ViewSource>> makeView() override {
         return makeViewOf(renderer_, work_);
     }
+
+    [[nodiscard]] bool hasDetailLevels() const override { return renderer_.hasDetailLevels(); }
 
     [[nodiscard]] double pace() const override { return work_.pace.value(); }
 

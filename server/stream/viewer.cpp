@@ -76,7 +76,9 @@ bool Viewer::addSample(const BegunFrame& frame, PixelLease& pixels) {
 session::Delivered
 Viewer::nextDelivered(const std::optional<session::RefinementSchedule::Due>& due) const {
     session::Delivery limits = delivery;
-    limits.scale = std::min(limits.scale, render_scale.scale());
+    const session::Relief relief = rate_keeper.relief();
+    limits.scale = std::min(limits.scale, relief.scale);
+    limits.geometry_error_px = relief.geometry_error_px;
     session::Delivered with = session::delivered(
         state.encoding, limits, due ? due->stage : session::Refinement::kInteractive);
     with.scale = std::min(with.scale, affordable.scale());
@@ -118,7 +120,8 @@ std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) 
 
 void Viewer::noteBegun(const BegunFrame& frame, TimePoint now) {
     const session::Delivered& with = frame.record.delivered;
-    const bool limited = with.scale < 1 || with.encoding != frame.state.encoding;
+    const bool limited =
+        with.scale < 1 || with.geometry_error_px > 0 || with.encoding != frame.state.encoding;
     refinement.onBegun(with.refinement, limited);
     amid_samples = frame.sample_count > 1 && !frame.isLastSample();
     if (moves()) {

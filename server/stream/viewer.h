@@ -5,8 +5,8 @@
 #include "core/allowance.h"
 #include "render/view/sample_mean.h"
 #include "session/affordable_scale.h"
+#include "session/rate_keeper.h"
 #include "session/refinement.h"
-#include "session/render_scale.h"
 #include "session/steady_cost.h"
 #include "session/stream_port.h"
 #include "stream/frame_pipeline.h"
@@ -63,7 +63,7 @@ struct Viewer {
     uint64_t granted = 0;
     uint32_t under_way = 0; // frames on the device or waiting for it
     session::Delivery delivery;
-    session::RenderScale render_scale;
+    session::RateKeeper rate_keeper;
     session::AffordableScale affordable;       // in the scene that `source` is of
     std::optional<settings::Size> no_room_for; // in full, as far as was tried
     const bool beside; // single pictures: at the size asked for, or not at all

@@ -163,7 +163,7 @@ class FakeView final : public stream::ViewSource {
         ++device_->collect_count;
         Frame& frame = frames_.front();
         device_->passGate();
-        device_->passTime(Seconds(device_->frame_time.load()) / frame.piece_count);
+        device_->passTime(device_->timeOf(frame.settings) / frame.piece_count);
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
         }
@@ -222,8 +222,7 @@ class FakeView final : public stream::ViewSource {
             --*own;
         });
         frame.stats.passes = {{"fake", 1.0}};
-        frame.stats.gpu_us =
-            std::max(1.0, Microseconds(Seconds(device_->frame_time.load())).count());
+        frame.stats.gpu_us = std::max(1.0, Microseconds(device_->timeOf(settings)).count());
         fillStats(frame.stats, settings);
         return frame;
     }
@@ -292,6 +291,7 @@ class FakeSource final : public stream::FrameSource {
     ~FakeSource() override { device_->outlived = device_->live_scenes + device_->live_moves; }
     [[nodiscard]] uint32_t depth() const override { return device_->depth; }
     [[nodiscard]] bool isHost() const override { return false; }
+    [[nodiscard]] bool hasDetailLevels() const override { return device_->detail_levels; }
     [[nodiscard]] Result<std::unique_ptr<stream::ViewSource>> makeView() override {
         device_->addView("");
         return std::unique_ptr<stream::ViewSource>(std::make_unique<FakeView>(device_));

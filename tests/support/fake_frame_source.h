@@ -25,8 +25,10 @@ class FakeDevice {
     std::atomic<uint64_t> max_beside_bytes = UINT64_MAX;       // nor does more beside them
     std::atomic<uint32_t> max_lights = UINT32_MAX; // lists of more do not fit, which shows late
     std::atomic<std::chrono::milliseconds> frame_time{}; // that a picture takes
-    std::atomic<std::chrono::milliseconds> estimate{};   // of it; 0: it is right
-    std::atomic<uint32_t> piece_count = 1;               // of frames that begin from now on
+    std::atomic<bool> detail_levels = false;
+    std::atomic<float> coarse_px = 1e6F; // pictures with such a geometry error take no time
+    std::atomic<std::chrono::milliseconds> estimate{}; // of it; 0: it is right
+    std::atomic<uint32_t> piece_count = 1;             // of frames that begin from now on
     std::atomic<uint32_t> again_count = 0;   // that many frames need more than they were given
     std::atomic<uint32_t> unready_count = 0; // that many times nothing can begin yet
     std::atomic<std::chrono::milliseconds> unready_time{}; // that finding that out takes
@@ -57,6 +59,9 @@ class FakeDevice {
     // While closed, collect() waits: the device is busy.
     void setGate(bool open);
     void passGate();
+    [[nodiscard]] Seconds timeOf(const settings::ViewSettings& settings) const {
+        return settings.geometry_error_px < coarse_px ? Seconds(frame_time.load()) : Seconds(0);
+    }
     // Takes that long.
     void passTime(Seconds time);
     // The sizes of whole frames, in the order in which they were done.

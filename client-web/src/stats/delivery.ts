@@ -30,6 +30,7 @@ export function deliveryRows(header: FrameHeader): Row[] {
   return [
     { name: 'Stage · quality', value: madeWith(header) },
     { name: 'Scale · rung', value: `${percent} % · ${header.rung}` },
+    ...(header.geometryErrorPx > 0 ? [{ name: 'Geometry error', value: `${header.geometryErrorPx} px` }] : []),
     { name: 'Link delay', value: ms(header.queueDelayUs / 1000) },
     { name: 'Link at least', value: linkText(Number(header.linkBitsPerS)) },
   ];

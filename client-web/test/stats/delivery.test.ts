@@ -33,6 +33,12 @@ describe('deliveryRows', () => {
     expect(values({ ...rest, quality: 92, refinement: Refinement.SMOOTH })[0]).toBe('smooth · 92 · 4:4:4');
   });
 
+  it('GeometryErrorForTheTargetRate_HasARowOfItsOwn', () => {
+    const rows = deliveryRows(frameHeader({ geometryErrorPx: 0.5 }));
+    expect(rows).toContainEqual({ name: 'Geometry error', value: '0.5 px' });
+    expect(deliveryRows(frameHeader({})).map(({ name }) => name)).not.toContain('Geometry error');
+  });
+
   it('ServerThatSaysNothing_IsADash', () => {
     expect(values({})[0]).toBe('–');
     expect(values({})[3]).toBe('–');

@@ -65,6 +65,10 @@ Renderer::Renderer(std::unique_ptr<SceneResources> resources) : resources_(std::
 
 Renderer::~Renderer() = default;
 
+bool Renderer::hasDetailLevels() const {
+    return !resources_->details.empty();
+}
+
 uint64_t Renderer::bytes() const {
     return resources_->memory.bytes();
 }

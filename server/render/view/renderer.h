@@ -77,6 +77,8 @@ class Renderer {
 
     // Of the device's memory.
     [[nodiscard]] uint64_t bytes() const;
+    // Whether views may ask for a geometry error.
+    [[nodiscard]] bool hasDetailLevels() const;
     [[nodiscard]] SceneResources& resources() { return *resources_; }
 
   private:

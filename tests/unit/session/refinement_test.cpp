@@ -1,5 +1,4 @@
 #include "session/refinement.h"
-#include "session/render_scale.h"
 
 #include <gtest/gtest.h>
 
@@ -145,82 +144,6 @@ TEST(Delivered, Stages_AreMadeWithWhatTheyPromise) {
     EXPECT_EQ(delivered(asked, limits, Refinement::kHigh).encoding, kRefinedEncoding);
     EXPECT_EQ(delivered({97, settings::Chroma::k420}, limits, Refinement::kHigh).encoding.quality,
               97U);
-}
-
-// A renderer whose frames cost a part that stays and one that goes with the area.
-class Renderer {
-  public:
-    void run(RenderScale& scale, Seconds full, Seconds time) {
-        for (const Seconds end = now_ + time; now_ < end;) {
-            const double side = scale.scale();
-            const Seconds cost = 0.2 * full + 0.8 * full * (side * side);
-            now_ += cost;
-            scale.onFrame(cost, side,
-                          TimePoint(10s) + std::chrono::duration_cast<Clock::duration>(now_));
-            moves_ += scale.scale() != side ? 1 : 0;
-            last_cost_ = cost;
-        }
-    }
-    [[nodiscard]] Seconds lastCost() const { return last_cost_; }
-    int takeMoves() { return std::exchange(moves_, 0); }
-
-  private:
-    Seconds now_{0};
-    Seconds last_cost_{0};
-    int moves_ = 0;
-};
-
-TEST(RenderScale, NoTarget_StaysFull) {
-    RenderScale scale;
-    Renderer().run(scale, 500ms, 20s);
-    EXPECT_EQ(scale.scale(), 1);
-}
-
-TEST(RenderScale, CostStep_IsFollowedAndTakenBack) {
-    RenderScale scale;
-    scale.setTarget(15);
-    Renderer renderer;
-    renderer.run(scale, 50ms, 5s);
-    EXPECT_EQ(scale.scale(), 1);
-    renderer.run(scale, 120ms, 1s);
-    EXPECT_LT(renderer.lastCost(), Seconds(1.0 / 15 * 1.05));
-    EXPECT_LT(scale.scale(), 1);
-    renderer.run(scale, 120ms, 30s);
-    renderer.takeMoves();
-    renderer.run(scale, 120ms, 60s);
-    EXPECT_LE(renderer.takeMoves(), 2) << "it settles";
-    renderer.run(scale, 50ms, 10s);
-    EXPECT_EQ(scale.scale(), 1);
-}
-
-// Smaller pictures are cheap, and the whole one is not: ever longer until it is tried again.
-TEST(RenderScale, AStepThatIsTakenBack_IsHeldLongerEachTime) {
-    RenderScale scale;
-    scale.setTarget(15);
-    TimePoint now(10s);
-    std::vector<TimePoint> tried;
-    while (now < TimePoint(200s)) {
-        const double at = scale.scale();
-        const auto cost = at == 1 ? 100ms : 20ms;
-        now += cost;
-        scale.onFrame(cost, at, now);
-        if (scale.scale() == 1 && at != 1) {
-            tried.push_back(now);
-        }
-    }
-    ASSERT_GE(tried.size(), 6U);
-    EXPECT_LE(tried.size(), 10U);
-    EXPECT_GT(tried[5] - tried[4], 1.5 * (tried[4] - tried[3]));
-    EXPECT_NEAR(Seconds(tried.back() - tried.end()[-2]).count(), 60, 2) << "30 s a step at most";
-}
-
-TEST(RenderScale, NotToBeReached_StopsAtTheSmallest) {
-    RenderScale scale;
-    scale.setTarget(60);
-    Renderer().run(scale, 800ms, 10s);
-    EXPECT_EQ(scale.scale(), RenderScale::kScales.back());
-    scale.setTarget(0);
-    EXPECT_EQ(scale.scale(), 1);
 }
 
 } // namespace

@@ -270,7 +270,7 @@ FrameRecord record() {
     record.queue_us = 1.4;
     record.render_us = 2.5;
     record.encode_wait_us = 3;
-    record.delivered = {0.75, {55, settings::Chroma::k420}, Refinement::kInteractive, 4};
+    record.delivered = {0.75, {55, settings::Chroma::k420}, Refinement::kInteractive, 4, 0.5};
     record.queue_delay_us = 1500;
     record.link_bits_per_s = 1.7e6;
     record.encode_us = 4;
@@ -324,6 +324,7 @@ TEST(FrameHeader, CarriesTheRecord) {
     EXPECT_EQ(header.gpu_us(), 30U);
     EXPECT_EQ(header.encode_wait_us(), 3U);
     EXPECT_EQ(header.scale(), 0.75);
+    EXPECT_EQ(header.geometry_error_px(), 0.5);
     EXPECT_EQ(header.quality(), 55U);
     EXPECT_EQ(header.chroma(), v1::CHROMA_420);
     EXPECT_EQ(header.refinement(), v1::REFINEMENT_INTERACTIVE);

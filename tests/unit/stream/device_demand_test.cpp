@@ -1,5 +1,5 @@
 // Moving viewers that share one device, and the resolution at which they keep their rates.
-#include "session/render_scale.h"
+#include "session/rate_keeper.h"
 #include "stream/device_demand.h"
 
 #include <gtest/gtest.h>
@@ -44,9 +44,9 @@ TEST(DeviceDemand, WithoutTarget_CountsAsItsFairShare) {
 // Viewers in turn on a device where a part of each frame goes with its area.
 class SharedDevice {
   public:
-    explicit SharedDevice(size_t count) : scales_(count) {
-        for (auto& scale : scales_) {
-            scale.setTarget(kTarget_hz);
+    explicit SharedDevice(size_t count) : keepers_(count) {
+        for (auto& keeper : keepers_) {
+            keeper.setTarget(kTarget_hz, false);
         }
     }
     // Frames a second of each viewer over this time.
@@ -56,19 +56,19 @@ class SharedDevice {
         seen_.clear();
         while (now_ < end) {
             const Seconds begin = now_;
-            for (size_t i = 0; i < scales_.size(); ++i) {
-                const double scale = scales_[i].scale();
+            for (size_t i = 0; i < keepers_.size(); ++i) {
+                const double scale = keepers_[i].relief().scale;
                 const Seconds cost = kFixed + kFull * (scale * scale);
                 now_ += cost;
                 demand_.onFrame(i, cost, kTarget_hz, at(now_));
                 const Seconds shared(demand_.total(at(now_)) / kTarget_hz);
-                scales_[i].onFrame(std::max(cost, shared), scale, at(now_));
-                seen_.insert(scales_[i].scale());
+                keepers_[i].onFrame(std::max(cost, shared), {scale, 0}, at(now_));
+                seen_.insert(keepers_[i].relief().scale);
                 ++frames;
             }
             now_ = std::max(now_, begin + Seconds(1.0 / 60)); // no viewer's pace is faster
         }
-        return static_cast<double>(frames) / static_cast<double>(scales_.size()) / time.count();
+        return static_cast<double>(frames) / static_cast<double>(keepers_.size()) / time.count();
     }
     [[nodiscard]] const std::set<double>& seen() const { return seen_; }
 
@@ -77,7 +77,7 @@ class SharedDevice {
   private:
     static constexpr Seconds kFixed{0.0002};
     static constexpr Seconds kFull{0.0005};
-    std::vector<session::RenderScale> scales_;
+    std::vector<session::RateKeeper> keepers_;
     DeviceDemand demand_;
     Seconds now_{1};
     std::set<double> seen_;

@@ -502,6 +502,7 @@ TEST_F(RenderLoopTest, Delivery_LimitsMovingFramesAndMakesRestingOnesWhole) {
     const auto sink = makeSink();
     auto state = moving();
     state.encoding = {80, settings::Chroma::k444};
+    state.settings.geometry_error_px = 3;
     const auto id = join(sink, state, kPlenty);
     session::Delivery limits;
     limits.scale = 0.5;
@@ -513,6 +514,7 @@ TEST_F(RenderLoopTest, Delivery_LimitsMovingFramesAndMakesRestingOnesWhole) {
     }));
     EXPECT_EQ(sink->frames().back().record.delivered.encoding.quality, 45U);
     EXPECT_EQ(sink->frames().back().record.delivered.rung, 5U);
+    EXPECT_EQ(device_->begun().back().geometry_error_px, 1.5F) << "of the picture that is shown";
     // The lights stop: a frame below what was asked for is followed by one as asked for.
     auto stopped = still();
     stopped.encoding = state.encoding;
@@ -531,6 +533,38 @@ TEST_F(RenderLoopTest, Delivery_LimitsMovingFramesAndMakesRestingOnesWhole) {
     loop_->setDelivery(id, limits);
     settle();
     EXPECT_EQ(sink->frames().size(), count);
+}
+
+TEST_F(RenderLoopTest, TargetRate_OfAMovingViewGivesGeometryError) {
+    device_->frame_time = 40ms;
+    device_->detail_levels = true;
+    device_->coarse_px = 1;
+    start();
+    const auto sink = makeSink();
+    auto state = moving();
+    state.delivery.target_fps = 60;
+    const auto id = join(sink, state, kPlenty);
+    ASSERT_TRUE(sink->waitFor([](const auto& record) {
+        return !record.frames.empty() &&
+               record.frames.back().record.delivered.geometry_error_px == 1;
+    }));
+    EXPECT_EQ(sink->frames().back().record.width_px, 32U);
+    EXPECT_EQ(sink->frames().front().record.delivered.geometry_error_px, 0);
+    EXPECT_EQ(device_->begun().front().geometry_error_px, 0);
+    const auto has = [&](float error_px) {
+        return std::ranges::any_of(device_->begun(), [&](const auto& settings) {
+            return settings.geometry_error_px == error_px;
+        });
+    };
+    EXPECT_TRUE(has(0.5F) && has(1));
+    auto stopped = still();
+    stopped.delivery = state.delivery;
+    stopped.version = state.version + 1;
+    loop_->update(id, stopped, Clock::now());
+    ASSERT_TRUE(sink->waitFor([](const auto& record) {
+        return isAt(record.frames.back(), session::Refinement::kSettled);
+    }));
+    EXPECT_EQ(sink->frames().back().record.delivered.geometry_error_px, 0);
 }
 
 TEST_F(RenderLoopTest, Delivery_Interval_PacesMovingFrames) {
