@@ -183,7 +183,9 @@ int measureSweeps(const BenchOptions& options, const std::string& page) {
     auto scene = loadScene(options.scene).value();
     surround(scene, readSurroundings(options.environment_file));
     gpu::Device device(options.device);
-    render::Renderer renderer(device, scene, {}, {.detail_levels = drawsLevels(options)});
+    render::Renderer renderer(device, scene, {},
+                              {.detail_levels = drawsLevels(options),
+                               .geometry_cache = options.device.pipeline_cache.folder});
     logWarnings(scene);
     bench::Run run(renderer, scene, startOf(options, scene, device.traits()), stop.stopped());
     run.measure(sweepsOf(options, run.result().base), [&](const bench::RunResult& result) {

@@ -156,7 +156,8 @@ class CommandBuilder {
         target = defaultPipelineCache();
         value("--pipeline-cache", "DIR|off", target, parsePipelineCache,
               "$XDG_CACHE_HOME/froxel or ~/.cache/froxel",
-              "Folder where compiled pipelines are kept from run to run");
+              "Folder where compiled pipelines, and meshlets of large scenes, are kept from run to "
+              "run");
     }
 
   private:

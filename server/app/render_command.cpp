@@ -166,7 +166,8 @@ void runRender(const RenderOptions& options) try {
             findCamera(*options.grid_camera, scene, run.settings.size).value();
     }
     render::Renderer renderer(device, scene, {},
-                              {.detail_levels = run.settings.geometry_error_px > 0});
+                              {.detail_levels = run.settings.geometry_error_px > 0,
+                               .geometry_cache = options.device.pipeline_cache.folder});
     render::ViewRenderer viewer(renderer);
     const auto last = drawAll(options, playback, viewer, run);
     if (!options.out.empty()) {

@@ -87,7 +87,8 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
     tellMemory(limits, options.sessions_max);
     auto source = stream::makeRendererSource(
         std::move(device), *first.scene, first.context.first_view.cameraFor(settings::Size{}),
-        Seconds(options.frame_limit_s), limits, {.detail_levels = options.detail_levels},
+        Seconds(options.frame_limit_s), limits,
+        {.detail_levels = options.detail_levels, .geometry_cache = options.pipeline_cache.folder},
         {options.jpeg_encoder, encoderCount()});
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);

@@ -1,13 +1,11 @@
 #include "gpu/pipeline_cache.h"
 
+#include "core/replace_file.h"
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
-#include <sys/stat.h>
-#include <system_error>
-#include <unistd.h>
 
 namespace froxel::gpu {
 
@@ -64,25 +62,6 @@ std::string faultOf(const Header& header, const PipelineCacheKey& key) {
         return "belongs to another build";
     }
     return header.length > kLargestBytes ? "states an impossible length" : std::string();
-}
-
-Error ioError(const fs::path& file, int code) {
-    return {ErrorCode::kIo,
-            "cannot write '" + file.string() + "': " + std::generic_category().message(code)};
-}
-
-bool writeAll(int file, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(file, bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR) {
-            continue;
-        }
-        if (count <= 0) {
-            return false;
-        }
-        bytes = bytes.subspan(static_cast<size_t>(count));
-    }
-    return true;
 }
 
 fs::path absoluteFrom(const char* variable) {
@@ -157,31 +136,9 @@ Result<void> writePipelineCache(const fs::path& file,
     if (const auto fault = faultOf(bytes, key); !fault.empty()) {
         return Error{ErrorCode::kIo, "what the driver gave to write " + fault};
     }
-    std::error_code failure;
-    if (fs::create_directories(file.parent_path(), failure)) {
-        fs::permissions(file.parent_path(), fs::perms::owner_all, failure);
-    }
-    // A name of its own for each writer, and a rename at the end: nobody sees half a file.
-    std::string temporary = file.string() + ".XXXXXX";
-    const int handle = ::mkstemp(temporary.data());
-    if (handle < 0) {
-        return ioError(file, errno);
-    }
     const Header header{.key = key, .length = bytes.size(), .hash = hashBytes(bytes)};
-    const bool written = writeAll(handle, std::as_bytes(std::span(&header, 1))) &&
-                         writeAll(handle, bytes) && ::fsync(handle) == 0;
-    int code = written ? 0 : errno;
-    if (::close(handle) != 0 && code == 0) {
-        code = errno;
-    }
-    if (code == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) {
-        code = errno;
-    }
-    if (code != 0) {
-        ::unlink(temporary.c_str());
-        return ioError(file, code);
-    }
-    return {};
+    return replaceFile(file, std::array{std::as_bytes(std::span(&header, 1)), bytes},
+                       Durable::kYes);
 }
 
 } // namespace froxel::gpu

@@ -2,6 +2,10 @@
 
 #include "core/ceil_divide.h"
 #include "core/parallel.h"
+#include "core/text.h"
+#include "render/scene/geometry_cache.h"
+
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <meshoptimizer.h>
@@ -106,23 +110,12 @@ void appendParts(std::vector<Part> parts, PackedGeometry& out) {
     });
 }
 
-std::vector<bool> bentMeshes(const scene::Scene& scene) {
-    std::vector<bool> bent(scene.meshes.size(), false);
-    if (scene.motion) {
-        for (const scene::DeformedMesh& deformed : scene.motion->deformed) {
-            bent[deformed.mesh] = true;
-        }
-    }
-    return bent;
-}
-
 void appendCoarserLevels(const scene::Scene& scene, PackedGeometry& out) {
-    const std::vector<bool> bent = bentMeshes(scene);
     const std::span<const Meshlet> exact = out.triangles.meshlets;
     MeshletList coarser;
     out.details.resize(exact.size());
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
-        for (size_t p = 0; p < out.meshes[m].size() && !bent[m]; ++p) {
+        for (size_t p = 0; p < out.meshes[m].size() && !isBent(scene, m); ++p) {
             PackedPrimitive& primitive = out.meshes[m][p];
             const DetailLevels levels =
                 buildDetailLevels(scene.meshes[m].primitives[p].positions, out.triangles.indices,
@@ -143,6 +136,65 @@ void appendCoarserLevels(const scene::Scene& scene, PackedGeometry& out) {
     append(out.triangles, coarser);
 }
 
+// Of a scene, in the order of their vertices.
+using Primitives = std::vector<std::pair<const scene::Primitive*, PackedPrimitive*>>;
+
+Primitives packVertices(const scene::Scene& scene, PackedGeometry& out) {
+    out.meshes.resize(scene.meshes.size());
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+        out.meshes[m].resize(scene.meshes[m].primitives.size());
+    }
+    Primitives primitives;
+    size_t vertex_count = 0;
+    for (const bool extended : {true, false}) {
+        for (size_t m = 0; m < scene.meshes.size(); ++m) {
+            for (size_t p = 0; p < scene.meshes[m].primitives.size(); ++p) {
+                const scene::Primitive& source = scene.meshes[m].primitives[p];
+                if (isExtended(source) == extended) {
+                    out.meshes[m][p] = describe(source, vertex_count);
+                    primitives.emplace_back(&source, &out.meshes[m][p]);
+                    vertex_count += source.positions.size();
+                }
+            }
+        }
+        if (extended) {
+            out.extended.resize(vertex_count);
+        }
+    }
+    out.positions.resize(vertex_count);
+    out.surfaces.resize(vertex_count);
+    eachOnThreads(primitives.size(), threadsFor(primitives.size(), vertex_count), [&](size_t i) {
+        packVertices(*primitives[i].first, *primitives[i].second, out);
+    });
+    return primitives;
+}
+
+size_t triangleCount(const Primitives& primitives) {
+    size_t count = 0;
+    for (const auto& [source, packed] : primitives) {
+        count += source->indices.size() / 3;
+    }
+    return count;
+}
+
+void packTriangles(const scene::Scene& scene,
+                   const Primitives& primitives,
+                   const PackOptions& options,
+                   PackedGeometry& out) {
+    std::vector<Part> parts;
+    for (const auto& [source, packed] : primitives) {
+        if (!source->indices.empty()) {
+            addParts(*source, *packed, options.most_at_once, parts);
+        }
+    }
+    eachOnThreads(parts.size(), threadsFor(parts.size(), triangleCount(primitives)),
+                  [&](size_t i) { packTriangles(parts[i]); });
+    appendParts(std::move(parts), out);
+    if (options.detail_levels) {
+        appendCoarserLevels(scene, out);
+    }
+}
+
 } // namespace
 
 Corners fromLowest(Corners corners) {
@@ -154,48 +206,27 @@ bool isExtended(const scene::Primitive& primitive) {
     return !primitive.uv1.empty() || !primitive.colors.empty() || !primitive.tangents.empty();
 }
 
+bool isBent(const scene::Scene& scene, size_t mesh) {
+    return scene.motion && std::ranges::any_of(scene.motion->deformed, [&](const auto& deformed) {
+               return deformed.mesh == mesh;
+           });
+}
+
 PackedGeometry packGeometry(const scene::Scene& scene, const PackOptions& options) {
     PackedGeometry out;
-    out.meshes.resize(scene.meshes.size());
-    for (size_t m = 0; m < scene.meshes.size(); ++m) {
-        out.meshes[m].resize(scene.meshes[m].primitives.size());
+    const Primitives primitives = packVertices(scene, out);
+    if (options.cache_folder.empty() ||
+        triangleCount(primitives) < options.least_cached_triangles) {
+        packTriangles(scene, primitives, options, out);
+        return out;
     }
-    std::vector<std::pair<const scene::Primitive*, PackedPrimitive*>> primitives;
-    std::vector<Part> parts;
-    size_t vertex_count = 0;
-    size_t extended_count = 0;
-    size_t index_count = 0;
-    for (const bool extended : {true, false}) {
-        for (size_t m = 0; m < scene.meshes.size(); ++m) {
-            for (size_t p = 0; p < scene.meshes[m].primitives.size(); ++p) {
-                const scene::Primitive& source = scene.meshes[m].primitives[p];
-                if (isExtended(source) != extended) {
-                    continue;
-                }
-                PackedPrimitive& packed = out.meshes[m][p];
-                packed = describe(source, vertex_count);
-                primitives.emplace_back(&source, &packed);
-                vertex_count += source.positions.size();
-                index_count += source.indices.size();
-                if (!source.indices.empty()) {
-                    addParts(source, packed, options.most_at_once, parts);
-                }
-            }
+    const GeometryHash hash = hashOfGeometry(scene, options);
+    const auto file = geometryCacheFile(options.cache_folder, hash);
+    if (!readGeometry(file, hash, scene, out)) {
+        packTriangles(scene, primitives, options, out);
+        if (const auto written = writeGeometry(file, hash, out); !written) {
+            spdlog::warn("event=geometry_not_kept reason={}", logValue(written.error().message));
         }
-        extended_count = extended ? vertex_count : extended_count;
-    }
-    out.positions.resize(vertex_count);
-    out.surfaces.resize(vertex_count);
-    out.extended.resize(extended_count);
-    const size_t work = index_count / 3;
-    eachOnThreads(primitives.size(), threadsFor(primitives.size(), work), [&](size_t i) {
-        packVertices(*primitives[i].first, *primitives[i].second, out);
-    });
-    eachOnThreads(parts.size(), threadsFor(parts.size(), work),
-                  [&](size_t i) { packTriangles(parts[i]); });
-    appendParts(std::move(parts), out);
-    if (options.detail_levels) {
-        appendCoarserLevels(scene, out);
     }
     return out;
 }

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 namespace froxel::render {
@@ -61,6 +62,8 @@ using Corners = std::array<uint32_t, 3>;
 
 // Whether the primitive has ExtendedVertex data.
 [[nodiscard]] bool isExtended(const scene::Primitive& primitive);
+// Whether an instance bends the mesh.
+[[nodiscard]] bool isBent(const scene::Scene& scene, size_t mesh);
 
 // Meshlets of a primitive of more triangles than that are made of so many at once, of neighbours:
 // on several threads, and their bounds are others than those of all at once would be. The same
@@ -70,6 +73,10 @@ inline constexpr size_t kMostTrianglesAtOnce = 500'000;
 struct PackOptions {
     size_t most_at_once = kMostTrianglesAtOnce;
     bool detail_levels = false; // of meshes that no instance bends
+    // Where what takes long is kept from run to run (geometry_cache.h), of scenes with so many
+    // triangles; empty: nowhere.
+    std::filesystem::path cache_folder{};
+    size_t least_cached_triangles = 500'000;
 };
 
 [[nodiscard]] PackedGeometry packGeometry(const scene::Scene& scene,

@@ -145,7 +145,8 @@ SceneResources::SceneResources(DeviceResources& shared_in,
     if (const auto fault = scene::findFault(scene)) {
         throw StartupError({ErrorCode::kScene, *fault});
     }
-    auto geometry = packGeometry(scene, {.detail_levels = shared.scene_options.detail_levels});
+    auto geometry = packGeometry(scene, {.detail_levels = shared.scene_options.detail_levels,
+                                         .cache_folder = shared.scene_options.geometry_cache});
     if (scene.motion) {
         motion = std::make_unique<const SceneMotion>(shared, arena, uploader, scene, geometry);
     }

@@ -1,0 +1,80 @@
+// A file that is replaced as a whole: readers see the old one or the new one.
+#pragma once
+
+#include "core/error.h"
+
+#include <cerrno>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace froxel {
+
+// Whether the new file outlives a crash of the machine, for which the disk is waited for.
+enum class Durable : bool { kNo, kYes };
+
+namespace detail {
+
+inline bool writeAll(int file, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(file, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count <= 0) {
+            return false;
+        }
+        bytes = bytes.subspan(static_cast<size_t>(count));
+    }
+    return true;
+}
+
+} // namespace detail
+
+// Writes the parts, one after another; makes the folder (for its owner only) where it is missing.
+// Errors: kIo.
+[[nodiscard]] inline Result<void> replaceFile(const std::filesystem::path& file,
+                                              std::span<const std::span<const std::byte>> parts,
+                                              Durable durable) {
+    const auto failed = [&](int code) {
+        return Error{ErrorCode::kIo, "cannot write '" + file.string() +
+                                         "': " + std::generic_category().message(code)};
+    };
+    std::error_code failure;
+    if (std::filesystem::create_directories(file.parent_path(), failure)) {
+        std::filesystem::permissions(file.parent_path(), std::filesystem::perms::owner_all,
+                                     failure);
+    }
+    // A name of its own for each writer, and a rename at the end: nobody sees half a file.
+    std::string temporary = file.string() + ".XXXXXX";
+    const int handle = ::mkstemp(temporary.data());
+    if (handle < 0) {
+        return failed(errno);
+    }
+    int code = 0;
+    for (const auto& part : parts) {
+        if (code == 0 && !detail::writeAll(handle, part)) {
+            code = errno;
+        }
+    }
+    if (code == 0 && durable == Durable::kYes && ::fsync(handle) != 0) {
+        code = errno;
+    }
+    if (::close(handle) != 0 && code == 0) {
+        code = errno;
+    }
+    if (code == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) {
+        code = errno;
+    }
+    if (code != 0) {
+        ::unlink(temporary.c_str());
+        return failed(code);
+    }
+    return {};
+}
+
+} // namespace froxel
