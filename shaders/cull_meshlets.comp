@@ -91,7 +91,8 @@ uint appendVisible(uint count) {
     for (uint at = first; at < first + count;) {
         uint batch = at / most;
         uint end = min((batch + 1u) * most, first + count);
-        atomicAdd(batches[batch].meshlets, end - at);
+        atomicAdd(batches[batch].meshlets.x, end - at);
+        batches[batch].others.x = kRasterBlockGroups; // whoever is first or last
         at = end;
     }
     return first;

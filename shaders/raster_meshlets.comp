@@ -20,6 +20,9 @@
 #include "lib/raster_triangle.glsl"
 #include "lib/raster_clip.glsl"
 #include "lib/raster_pixel.glsl"
+#ifdef FROXEL_BATCHES
+#include "lib/raster_hidden.glsl"
+#endif
 
 layout(local_size_x = kRasterGroup) in;
 
@@ -162,6 +165,11 @@ void main() {
     }
     Meshlet m = meshlets[placed.meshlet];
     InstanceView view = instances[item.instance];
+#ifdef FROXEL_BATCHES
+    if (batch > 0u && item.bends == 0u && isHidden(view, m)) {
+        return;
+    }
+#endif
     uint lane = gl_LocalInvocationIndex;
     projectVertices(m, item, view, lane);
     barrier();

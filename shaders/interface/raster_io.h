@@ -22,19 +22,29 @@ FROXEL_CONST uint kRasterRun = 8U;            // blocks
 FROXEL_CONST uint kRasterBlockBits = 40U;
 FROXEL_CONST uint kRasterMostTriangles = 1U << 24; // of a batch, so that neither part overflows
 FROXEL_CONST uint kRasterMostBatches = 512U;
+// Pixels a side of blocks whose farthest depth is known to later batches.
+FROXEL_CONST uint kFarFine = 8U;
+FROXEL_CONST uint kFarCoarse = 64U;
 
-// Visible meshlets that are drawn together, since their large triangles have room together. Begins
-// as VkDispatchIndirectCommand: a workgroup a visible meshlet.
+// VkDispatchIndirectCommand.
+struct Dispatch {
+    uint x;
+    uint y;
+    uint z;
+};
+FROXEL_SIZE_ASSERT(Dispatch, 12);
+
+// Visible meshlets that are drawn together, since their large triangles have room together.
 struct RasterBatch {
-    uint meshlets;
-    uint one_y;
-    uint one_z;
-    uint first; // of visible_meshlets[]
+    Dispatch meshlets; // a workgroup a visible meshlet
+    Dispatch others;   // of the passes that follow: kRasterBlockGroups, or none where x is 0 above
     uint64_t large;
+    uint first;           // of visible_meshlets[]
     uint most;            // meshlets of a batch
     uint meshlets_of_all; // of the first: those of all batches
+    uint padding0;
 };
-FROXEL_SIZE_ASSERT(RasterBatch, 32);
+FROXEL_SIZE_ASSERT(RasterBatch, 48);
 
 // A triangle that is drawn in blocks.
 struct LargeTriangle {

@@ -27,7 +27,7 @@ class HardDetail : public SharedGpuTest {
 };
 
 constexpr settings::Size kSize{96, 72};
-constexpr render::SceneOptions kLevels{.detail_levels = true};
+const render::SceneOptions kLevels{.detail_levels = true};
 
 scene::Material ink() {
     scene::Material material = chalk();

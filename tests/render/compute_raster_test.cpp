@@ -1,5 +1,6 @@
 // Ids rastered in compute against the rasteriser's, and exact among themselves.
 #include "builtin_scene/hall.h"
+#include "builtin_scene/spheres.h"
 #include "reference/geometry.h"
 #include "render/scene/scene_resources.h"
 #include "support/draw.h"
@@ -8,8 +9,11 @@
 #include "support/tier.h"
 #include "support/visible_exact.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -251,6 +255,70 @@ TEST_F(ComputeRaster, InBatches_HasTheSameBits) {
         EXPECT_EQ(compare(*one, *other).ids, 0U);
         EXPECT_GT(visibility.computeRaster().empty_batches.size(), 3U);
     }
+}
+
+// Balls behind balls, and through each other; some of them mirrored, flattened or sheared.
+scene::Scene manyBalls() {
+    scene::Scene scene = builtin_scene::makeSpheres({.triangle_count = 8'000, .copy_count = 12});
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        glm::dmat4& place = scene.instances[i].world_from_object;
+        place = glm::scale(place, glm::dvec3(2.5));
+        switch (i % 7) {
+        case 0:
+            place = glm::scale(place, glm::dvec3(-1, 1, 1));
+            break;
+        case 1:
+            place = glm::scale(place, glm::dvec3(1, 0, 1));
+            break;
+        case 2:
+            place[1] += 0.7 * place[0];
+            break;
+        case 3:
+            place = glm::scale(place, glm::dvec3(3, 0.2, 1));
+            break;
+        default:
+            break;
+        }
+    }
+    return scene;
+}
+
+// What lies behind earlier batches is left out: from wherever one looks, no pixel shows it.
+TEST_F(ComputeRaster, InBatches_OnlyWhatIsHiddenIsLeftOut) {
+    const auto scene = manyBalls();
+    render::Renderer at_once(device(), scene);
+    render::Renderer in_batches(device(), scene);
+    auto& visibility = in_batches.resources().materialsOfVariant(0)->visibility();
+    visibility.most_raster_triangles = 2'000;
+    render::ViewRenderer expected(at_once);
+    render::ViewRenderer view(in_batches);
+    std::mt19937 random(66);
+    const auto within = [&](double low, double high) {
+        return std::uniform_real_distribution(low, high)(random);
+    };
+    const glm::dvec3 center = scene.bounds_world.center();
+    const glm::dvec3 size = scene.bounds_world.size();
+    const auto anywhere = [&] {
+        return center + size * glm::dvec3(within(-1, 1), within(-1, 1), within(-1, 1));
+    };
+    for (int i = 0; i < 14; ++i) {
+        SCOPED_TRACE(i);
+        settings::Camera camera =
+            settings::lookAt(anywhere(), center + 0.3 * (anywhere() - center), {0, 1, 0});
+        camera.yfov_rad = within(0.2, 2.2);
+        if (i % 2 == 1) {
+            camera.projection = settings::Projection::kOrthographic;
+            camera.half_height_m = within(0.05, 0.6) * size.y;
+        }
+        camera.lens_shift =
+            i % 3 == 2 ? glm::dvec2(within(-0.4, 0.4), within(-0.4, 0.4)) : glm::dvec2(0);
+        const auto inputs = inputsFor(camera, GeometryPath::kComputeRaster);
+        const auto one = visibilityOf(view, scene, inputs);
+        const auto other = visibilityOf(expected, scene, inputs);
+        EXPECT_EQ(compare(one, other).ids, 0U);
+        EXPECT_EQ(one.depths, other.depths);
+    }
+    EXPECT_GT(visibility.computeRaster().empty_batches.size(), 15U);
 }
 
 TEST_F(ComputeRaster, Device_WithoutItsFeatures_IsToldInOneLine) {

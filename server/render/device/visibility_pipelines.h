@@ -13,8 +13,8 @@ namespace froxel::render {
 class VisibilityPipelines {
   public:
     // Of set 2: geometry and draws, 13; ids, G-buffer; what compute rasters by, 4; its depth, ids;
-    // details of meshlets, meshlets, their words.
-    static constexpr uint32_t kBindings = 24;
+    // details of meshlets, meshlets, their words; farthest depths.
+    static constexpr uint32_t kBindings = 25;
     static constexpr vk::Format kIdFormat = vk::Format::eR32Uint;
 
     [[nodiscard]] static constexpr vk::DescriptorType bindingType(uint32_t binding) {
@@ -46,7 +46,9 @@ class VisibilityPipelines {
         kCullList,
         kCullListDetail,
         kMeshlets,
+        kMeshletsOfBatches,
         kBlocks,
+        kFar,
         kUnpack
     };
     [[nodiscard]] vk::Pipeline compute(ComputeStep step, MaterialFlags material_flags = 0);

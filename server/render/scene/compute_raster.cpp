@@ -3,6 +3,7 @@
 #include "core/ceil_divide.h"
 #include "interface/constants.h"
 #include "render/scene/visibility_scene.h"
+#include "settings/ranges.h"
 
 #include <algorithm>
 
@@ -32,13 +33,13 @@ size_t batchesOf(const VisibilityScene& scene, uint32_t meshlet_count) {
 std::vector<io::RasterBatch> emptyBatches(const VisibilityScene& scene, uint32_t meshlet_count) {
     std::vector<io::RasterBatch> batches(batchesOf(scene, meshlet_count));
     for (uint32_t i = 0; i < batches.size(); ++i) {
-        batches[i] = {.meshlets = 0,
-                      .one_y = 1,
-                      .one_z = 1,
-                      .first = i * meshlet_count,
+        batches[i] = {.meshlets = {0, 1, 1},
+                      .others = {0, 1, 1},
                       .large = 0,
+                      .first = i * meshlet_count,
                       .most = meshlet_count,
-                      .meshlets_of_all = 0};
+                      .meshlets_of_all = 0,
+                      .padding0 = 0};
     }
     return batches;
 }
@@ -75,6 +76,14 @@ ComputeRaster::ComputeRaster(const gpu::Device& device,
     large =
         scratch(std::min<size_t>(scene.triangle_count, most_of_batch) * sizeof(io::LargeTriangle),
                 {}, "large triangles");
+    if (empty_batches.size() > 1) {
+        const auto blocks = [](size_t side) {
+            return ceilDivide(size_t{settings::kWidthRange.max}, side) *
+                   ceilDivide(size_t{settings::kHeightRange.max}, side);
+        };
+        far_depths = scratch((blocks(io::kFarFine) + blocks(io::kFarCoarse)) * sizeof(float), {},
+                             "farthest depths");
+    }
     if (!scene.pipelines.bindless()) {
         for (const auto& group : scene.groups) {
             if (isMasked(group)) {

@@ -25,9 +25,10 @@ class ComputeRaster {
                                               const VisibilityScene& scene);
 
     gpu::MemoryArena arena;
-    gpu::Buffer batches;  // io::RasterBatch
-    gpu::Buffer meshlets; // visible ones
-    gpu::Buffer large;    // io::LargeTriangle, room for every triangle of a batch
+    gpu::Buffer batches;    // io::RasterBatch
+    gpu::Buffer meshlets;   // visible ones
+    gpu::Buffer large;      // io::LargeTriangle, room for every triangle of a batch
+    gpu::Buffer far_depths; // of blocks of the largest picture; none where there is one batch
     // As each frame begins them.
     const std::vector<io::RasterBatch> empty_batches;
 

@@ -284,6 +284,8 @@ void VisibilityFrame::write(const Bindings& bindings) {
     buffers[21] = s.hasLevels() ? whole(s.details) : none;
     buffers[22] = whole(s.meshlets);
     buffers[23] = raster != nullptr ? all(s.words) : none;
+    buffers[24] =
+        raster != nullptr && *raster->far_depths.handle ? whole(raster->far_depths) : none;
     std::array<vk::DescriptorImageInfo, VisibilityPipelines::kBindings> images;
     const auto image = [&](uint32_t binding, vk::ImageView view) {
         images[binding] = {.imageView = view, .imageLayout = vk::ImageLayout::eGeneral};

@@ -25,11 +25,16 @@ void recordComputeRaster(const FrameContext& frame, bool culls) {
     computeAfterTransfer(cmd);
     recordRasterCull(frame, culls);
     nextIndirectPass(cmd);
-    for (uint32_t batch = 0; batch < rasterBatchCount(frame); ++batch) {
+    const uint32_t batch_count = rasterBatchCount(frame);
+    for (uint32_t batch = 0; batch < batch_count; ++batch) {
         recordRasterMeshlets(frame, batch);
         nextComputePass(cmd);
         recordRasterBlocks(frame, batch);
         nextComputePass(cmd);
+        if (batch + 1 < batch_count) {
+            recordRasterFar(frame, batch);
+            nextComputePass(cmd);
+        }
     }
     recordRasterUnpack(frame);
 }

@@ -6,6 +6,7 @@
 #include "render/surfaces/visibility_binding.h"
 
 #include <array>
+#include <cstddef>
 
 namespace froxel::render {
 
@@ -48,6 +49,13 @@ void drawMaterials(const FrameContext& frame, RasterStep step, uint32_t batch, D
     }
 }
 
+// None where the batch is empty.
+void dispatchOthers(const FrameContext& frame, uint32_t batch) {
+    frame.slot.cmd.dispatchIndirect(*raster(frame).batches.handle,
+                                    batch * sizeof(io::RasterBatch) +
+                                        offsetof(io::RasterBatch, others));
+}
+
 vk::BufferImageCopy wholeImage(const FrameContext& frame, vk::ImageAspectFlags aspect) {
     const auto& size = frame.drawn();
     return {.imageSubresource = {aspect, 0, 0, 1},
@@ -82,7 +90,9 @@ uint32_t rasterBatchCount(const FrameContext& frame) {
 
 void recordRasterMeshlets(const FrameContext& frame, uint32_t batch) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterMeshlets);
-    drawMaterials(frame, RasterStep::kMeshlets, batch, [&] {
+    const auto step =
+        rasterBatchCount(frame) > 1 ? RasterStep::kMeshletsOfBatches : RasterStep::kMeshlets;
+    drawMaterials(frame, step, batch, [&] {
         frame.slot.cmd.dispatchIndirect(*raster(frame).batches.handle,
                                         batch * sizeof(io::RasterBatch));
     });
@@ -90,8 +100,13 @@ void recordRasterMeshlets(const FrameContext& frame, uint32_t batch) {
 
 void recordRasterBlocks(const FrameContext& frame, uint32_t batch) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterBlocks);
-    drawMaterials(frame, RasterStep::kBlocks, batch,
-                  [&] { frame.slot.cmd.dispatch(io::kRasterBlockGroups, 1, 1); });
+    drawMaterials(frame, RasterStep::kBlocks, batch, [&] { dispatchOthers(frame, batch); });
+}
+
+void recordRasterFar(const FrameContext& frame, uint32_t batch) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterFar);
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(RasterStep::kFar));
+    dispatchOthers(frame, batch);
 }
 
 void recordRasterUnpack(const FrameContext& frame) {

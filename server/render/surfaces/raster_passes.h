@@ -9,12 +9,14 @@ namespace froxel::render {
 void recordRasterClear(const FrameContext& frame); // clears words and batches
 // Writes the list of visible meshlets; culls: not of all.
 void recordRasterCull(const FrameContext& frame, bool culls);
-// Of which each batch is drawn by two passes, one batch after another.
+// Of which each batch is drawn by two passes, one batch after another; a third pass tells the next
+// one what it need not draw.
 [[nodiscard]] uint32_t rasterBatchCount(const FrameContext& frame);
 // Reads that list; writes words and large triangles.
 void recordRasterMeshlets(const FrameContext& frame, uint32_t batch);
 // Reads large triangles; writes words.
 void recordRasterBlocks(const FrameContext& frame, uint32_t batch);
+void recordRasterFar(const FrameContext& frame, uint32_t batch); // reads words
 void recordRasterUnpack(const FrameContext& frame); // reads words; writes depth and ids
 void recordRasterSpoil(const FrameContext& frame);  // for tests: overwrites words
 
