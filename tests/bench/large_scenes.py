@@ -4,7 +4,8 @@
 Usage: large_scenes.py FROXEL [FIELD...] [-- OPTION...]
 
 A FIELD is TRIANGLES or TRIANGLESxCOPIES, such as 1000000x1000. Options go to `froxel render`, such
-as --device gpu. Scenes and timings are in a folder that is deleted at the end.
+as --device gpu. Scenes, timings and caches are in a folder that is deleted at the end: the first row
+of a field makes its meshlets, the second its levels, the third reads them.
 """
 
 import json
@@ -25,7 +26,7 @@ def draw(froxel: str, scene: Path, error_px: float, options: list[str]) -> dict:
     command = [froxel, "render", "--scene", str(scene), "--camera", "Field", "--size", "1920x1080"]
     command += ["--lights", "5000", "--environment", "off", "--geometry-error", str(error_px)]
     command += ["--frames", str(FRAMES), "--timings", str(timings)]
-    command += ["--log-level", "info", *options]
+    command += ["--log-level", "info", "--pipeline-cache", str(scene.parent / "cache"), *options]
     start = time.monotonic()
     ran = subprocess.run(command, capture_output=True, text=True)
     if ran.returncode != 0:
