@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "render/scene/geometry_cache.h"
+#include "scene/motion.h"
 
 #include <spdlog/spdlog.h>
 
