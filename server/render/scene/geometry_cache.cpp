@@ -42,19 +42,9 @@ struct Header {
 };
 static_assert(sizeof(Header) == 112);
 
-// A primitive's part of PackedGeometry::triangles.
-struct Ranges {
-    uint32_t first_index = 0;
-    uint32_t index_count = 0;
-    uint32_t first_meshlet = 0;
-    uint32_t meshlet_count = 0;
-    uint32_t first_coarser_meshlet = 0;
-    uint32_t coarser_meshlet_count = 0;
-};
-
 // What follows the header, in this order.
 struct Content {
-    std::vector<Ranges> ranges; // mesh by mesh
+    std::vector<TriangleRanges> ranges; // mesh by mesh
     std::vector<Meshlet> meshlets;
     std::vector<MeshletDetail> details;
     std::vector<uint32_t> words;
@@ -93,17 +83,6 @@ GeometryHash hashOf(const Counts& counts, std::span<const Bytes> content) {
     return hashOf(parts);
 }
 
-// The part that packing fills in of a primitive, by way of either.
-template <class To, class From>
-void copyRanges(To& to, const From& from) {
-    to.first_index = from.first_index;
-    to.index_count = from.index_count;
-    to.first_meshlet = from.first_meshlet;
-    to.meshlet_count = from.meshlet_count;
-    to.first_coarser_meshlet = from.first_coarser_meshlet;
-    to.coarser_meshlet_count = from.coarser_meshlet_count;
-}
-
 // Empty where all is there, else what is wrong.
 std::string
 readContent(const fs::path& file, const GeometryHash& hash, Header& header, Content& out) {
@@ -118,7 +97,7 @@ readContent(const fs::path& file, const GeometryHash& hash, Header& header, Cont
     const std::array counts = {header.counts.primitives, header.counts.meshlets,
                                header.counts.details, header.counts.words};
     if (std::ranges::any_of(counts, [&](uint64_t count) { return count > size; }) ||
-        sizeof(Header) + header.counts.primitives * sizeof(Ranges) +
+        sizeof(Header) + header.counts.primitives * sizeof(TriangleRanges) +
                 header.counts.meshlets * sizeof(Meshlet) +
                 header.counts.details * sizeof(MeshletDetail) +
                 header.counts.words * sizeof(uint32_t) !=
@@ -288,7 +267,7 @@ bool readGeometry(const fs::path& file,
     auto ranges = content.ranges.begin();
     for (auto& mesh : out.meshes) {
         for (PackedPrimitive& primitive : mesh) {
-            copyRanges(primitive, *ranges++);
+            static_cast<TriangleRanges&>(primitive) = *ranges++;
         }
     }
     fs::last_write_time(file, fs::file_time_type::clock::now(), failure); // it was used
@@ -299,10 +278,10 @@ Result<void> writeGeometry(const fs::path& file,
                            const GeometryHash& hash,
                            const PackedGeometry& packed,
                            uint64_t most_bytes) {
-    std::vector<Ranges> ranges;
+    std::vector<TriangleRanges> ranges;
     for (const auto& mesh : packed.meshes) {
         for (const PackedPrimitive& primitive : mesh) {
-            copyRanges(ranges.emplace_back(), primitive);
+            ranges.push_back(primitive);
         }
     }
     const std::array content = {

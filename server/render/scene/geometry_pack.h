@@ -29,8 +29,8 @@ struct ExtendedVertex {
 };
 static_assert(sizeof(ExtendedVertex) == 40);
 
-struct PackedPrimitive {
-    int32_t vertex_offset = 0;
+// A primitive's part of PackedGeometry::triangles.
+struct TriangleRanges {
     uint32_t first_index = 0;
     uint32_t index_count = 0;
     uint32_t first_meshlet = 0;
@@ -38,6 +38,10 @@ struct PackedPrimitive {
     // Of coarser levels, which replace those; 0: none.
     uint32_t first_coarser_meshlet = 0;
     uint32_t coarser_meshlet_count = 0;
+};
+
+struct PackedPrimitive : TriangleRanges {
+    int32_t vertex_offset = 0;
     uint32_t material = 0;
     bool extended = false; // has ExtendedVertex data
     bool tangents = false; // that data's tangents are from the file
