@@ -85,6 +85,7 @@ uint32_t distanceBucket(float distance_m) {
 struct Run {
     std::span<const Visible> meshlets;
     size_t meshlets_before; // of the runs before it
+    size_t thread = 0;      // that culls it
     uint32_t first = 0;
     uint32_t end = 0;
 };
@@ -306,17 +307,18 @@ void Builder::cullRuns(std::span<Run> runs) {
     onThreads(count, threads, [&](size_t thread, size_t begin, size_t end) {
         parts[thread].clear();
         for (Run& run : std::ranges::subrange(runAt(begin), runAt(end))) {
+            run.thread = thread;
             cullRun(run, parts[thread]);
         }
     });
-    for (size_t thread = 0; thread < threads; ++thread) {
-        const auto offset = static_cast<uint32_t>(out_.indices.size());
-        out_.indices.insert(out_.indices.end(), parts[thread].begin(), parts[thread].end());
-        for (Run& run : std::ranges::subrange(runAt(count * thread / threads),
-                                              runAt(count * (thread + 1) / threads))) {
-            run.first += offset;
-            run.end += offset;
-        }
+    std::vector<uint32_t> offsets;
+    for (const auto& part : std::span(parts).first(threads)) {
+        offsets.push_back(static_cast<uint32_t>(out_.indices.size()));
+        out_.indices.insert(out_.indices.end(), part.begin(), part.end());
+    }
+    for (Run& run : runs) {
+        run.first += offsets[run.thread];
+        run.end += offsets[run.thread];
     }
 }
 
