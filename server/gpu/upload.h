@@ -12,6 +12,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -69,6 +71,26 @@ class Uploader {
     std::optional<uint64_t> on_device_; // the slice's value
     vk::raii::CommandBuffer cmd_{nullptr};
 };
+
+// A buffer of the device's memory that is as large as the data and filled with them. A vector that
+// is moved here is kept; another one stays where it is until the uploader is done. Throws
+// vk::SystemError.
+template <class Vector>
+[[nodiscard]] Buffer makeFilled(MemoryArena& arena,
+                                Uploader& uploader,
+                                Vector&& data,
+                                vk::BufferUsageFlags usage,
+                                std::string_view name) {
+    const auto bytes = std::as_bytes(std::span(data));
+    Buffer buffer = arena.makeBuffer(bytes.size(), usage | vk::BufferUsageFlagBits::eTransferDst,
+                                     MemoryUse::kDevice, name);
+    if constexpr (std::is_lvalue_reference_v<Vector>) {
+        uploader.upload(buffer, bytes);
+    } else {
+        uploader.upload(buffer, std::forward<Vector>(data));
+    }
+    return buffer;
+}
 
 // At once, for what is small. Throws vk::SystemError, StartupError.
 void uploadNow(const Device& device,

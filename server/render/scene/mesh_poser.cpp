@@ -73,11 +73,7 @@ template <class T>
 gpu::Buffer
 upload(gpu::MemoryArena& arena, gpu::Uploader& uploader, std::vector<T> table, const char* name) {
     table.resize(std::max<size_t>(table.size(), 1)); // a buffer has bytes
-    auto buffer =
-        arena.makeBuffer(table.size() * sizeof(T), Usage::eStorageBuffer | Usage::eTransferDst,
-                         gpu::MemoryUse::kDevice, name);
-    uploader.upload(buffer, std::move(table));
-    return buffer;
+    return gpu::makeFilled(arena, uploader, std::move(table), Usage::eStorageBuffer, name);
 }
 
 gpu::Buffer copyOf(gpu::MemoryArena& arena, const gpu::Buffer& source) {

@@ -91,33 +91,6 @@ std::vector<DrawItem> makeItems(const scene::Scene& scene,
     return items;
 }
 
-// `data` stays where it is until the uploader is done.
-template <class T>
-gpu::Buffer uploadVector(gpu::MemoryArena& arena,
-                         gpu::Uploader& uploader,
-                         const std::vector<T>& data,
-                         vk::BufferUsageFlags usage,
-                         std::string_view name) {
-    const auto bytes = std::as_bytes(std::span(data));
-    auto buffer = arena.makeBuffer(bytes.size(), usage | vk::BufferUsageFlagBits::eTransferDst,
-                                   gpu::MemoryUse::kDevice, name);
-    uploader.upload(buffer, bytes);
-    return buffer;
-}
-
-template <class T>
-gpu::Buffer uploadVector(gpu::MemoryArena& arena,
-                         gpu::Uploader& uploader,
-                         std::vector<T>&& data,
-                         vk::BufferUsageFlags usage,
-                         std::string_view name) {
-    auto buffer =
-        arena.makeBuffer(data.size() * sizeof(T), usage | vk::BufferUsageFlagBits::eTransferDst,
-                         gpu::MemoryUse::kDevice, name);
-    uploader.upload(buffer, std::move(data));
-    return buffer;
-}
-
 // What of the scene this device draws.
 SceneNeeds drawableNeeds(const gpu::Device& device, const scene::Scene& scene) {
     SceneNeeds all = findNeeds(scene);
@@ -177,22 +150,22 @@ void SceneResources::uploadGeometry(PackedGeometry&& geometry, gpu::Uploader& up
     if (shared.device.traits().is_cpu) {
         meshlet_words = std::move(geometry.triangles.words);
         positions = std::move(geometry.positions);
-        position_buffer = uploadVector(arena, uploader, positions, vertices, "positions");
+        position_buffer = gpu::makeFilled(arena, uploader, positions, vertices, "positions");
     } else {
         position_buffer =
-            uploadVector(arena, uploader, std::move(geometry.positions), vertices, "positions");
+            gpu::makeFilled(arena, uploader, std::move(geometry.positions), vertices, "positions");
         if (shared.device.traits().int64_atomics) {
-            word_buffer = uploadVector(arena, uploader, std::move(geometry.triangles.words),
-                                       Usage::eStorageBuffer, "meshlet words");
+            word_buffer = gpu::makeFilled(arena, uploader, std::move(geometry.triangles.words),
+                                          Usage::eStorageBuffer, "meshlet words");
         }
     }
-    index_buffer =
-        uploadVector(arena, uploader, std::move(geometry.triangles.indices), kIndices, "indices");
-    surface_buffer =
-        uploadVector(arena, uploader, std::move(geometry.surfaces), vertices, "surface vertices");
+    index_buffer = gpu::makeFilled(arena, uploader, std::move(geometry.triangles.indices), kIndices,
+                                   "indices");
+    surface_buffer = gpu::makeFilled(arena, uploader, std::move(geometry.surfaces), vertices,
+                                     "surface vertices");
     if (!geometry.extended.empty()) {
-        extended_buffer = uploadVector(arena, uploader, std::move(geometry.extended), vertices,
-                                       "extended vertices");
+        extended_buffer = gpu::makeFilled(arena, uploader, std::move(geometry.extended), vertices,
+                                          "extended vertices");
     }
 }
 
@@ -224,8 +197,8 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
         std::memcpy(bytes.data() + stride * i, &uniforms, sizeof(uniforms));
         material_uniforms.push_back(uniforms);
     }
-    material_buffer_ = uploadVector(arena, uploader, std::move(bytes),
-                                    vk::BufferUsageFlagBits::eUniformBuffer, "materials");
+    material_buffer_ = gpu::makeFilled(arena, uploader, std::move(bytes),
+                                       vk::BufferUsageFlagBits::eUniformBuffer, "materials");
     for (uint32_t i = 0; i < count; ++i) {
         const auto& m = scene.materials[i];
         const vk::DescriptorBufferInfo buffer{*material_buffer_.handle, stride * i,

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 namespace froxel::render {
 
@@ -107,30 +109,6 @@ class Placer {
     const bool with_levels_;
 };
 
-// `table` stays where it is until the uploader is done.
-template <class T>
-gpu::Buffer uploadTable(gpu::MemoryArena& arena,
-                        gpu::Uploader& uploader,
-                        std::span<const T> table,
-                        std::string_view name) {
-    auto buffer = arena.makeBuffer(table.size_bytes(), Usage::eStorageBuffer | Usage::eTransferDst,
-                                   gpu::MemoryUse::kDevice, name);
-    uploader.upload(buffer, std::as_bytes(table));
-    return buffer;
-}
-
-template <class T>
-gpu::Buffer uploadTable(gpu::MemoryArena& arena,
-                        gpu::Uploader& uploader,
-                        std::vector<T> table,
-                        std::string_view name) {
-    auto buffer =
-        arena.makeBuffer(table.size() * sizeof(T), Usage::eStorageBuffer | Usage::eTransferDst,
-                         gpu::MemoryUse::kDevice, name);
-    uploader.upload(buffer, std::move(table));
-    return buffer;
-}
-
 } // namespace
 
 std::string VisibilityScene::unusable(const SceneResources& scene,
@@ -181,24 +159,25 @@ VisibilityScene::VisibilityScene(SceneResources& scene,
     materials_in_use.erase(std::unique(materials_in_use.begin(), materials_in_use.end()),
                            materials_in_use.end());
 
-    items = uploadTable(arena, uploader, placer.items, "visible items");
-    placed_meshlets =
-        uploadTable(arena, uploader, std::span<const io::PlacedMeshlet>(placed), "placed meshlets");
-    meshlets = uploadTable(arena, uploader, std::span<const Meshlet>(scene.meshlets), "meshlets");
+    const auto fill = [&](auto&& table, std::string_view name) {
+        return gpu::makeFilled(arena, uploader, std::forward<decltype(table)>(table),
+                               Usage::eStorageBuffer, name);
+    };
+    items = fill(std::move(placer.items), "visible items");
+    placed_meshlets = fill(placed, "placed meshlets");
+    meshlets = fill(scene.meshlets, "meshlets");
     if (detail == Detail::kLevels) {
-        details = uploadTable(arena, uploader, std::span<const MeshletDetail>(scene.details),
-                              "details of meshlets");
+        details = fill(scene.details, "details of meshlets");
     }
-    group_buffer = uploadTable(arena, uploader, blocks, "meshlet groups");
-    materials = uploadTable(arena, uploader, scene.material_uniforms, "materials (storage)");
+    group_buffer = fill(std::move(blocks), "meshlet groups");
+    materials = fill(scene.material_uniforms, "materials (storage)");
     if (scene.texturesAtOnce() > 0) {
         writeTextures(scene);
     }
     compute_unusable = ComputeRaster::unusable(device_, *this);
     words = *scene.word_buffer.handle;
     if (!words && compute_unusable.empty()) {
-        own_words_ = uploadTable(arena, uploader, std::span<const uint32_t>(scene.meshlet_words),
-                                 "meshlet words");
+        own_words_ = fill(scene.meshlet_words, "meshlet words");
         words = *own_words_.handle;
     }
 }
