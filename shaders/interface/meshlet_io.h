@@ -9,7 +9,8 @@
 
 FROXEL_IO_NAMESPACE_BEGIN
 
-FROXEL_CONST uint kMeshletVertices = 96U; // at most
+// At most. Small meshlets cull well and still amortise a draw.
+FROXEL_CONST uint kMeshletVertices = 96U;
 FROXEL_CONST uint kMeshletTriangles = 124U;
 
 // A run of triangles with its bounding sphere and normal cone, in object space. All of its

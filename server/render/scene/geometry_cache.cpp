@@ -1,6 +1,5 @@
 #include "render/scene/geometry_cache.h"
 
-#include "core/ceil_divide.h"
 #include "core/parallel.h"
 #include "core/replace_file.h"
 
@@ -8,7 +7,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <fstream>
 #include <meshoptimizer.h>
 #include <openssl/evp.h>
@@ -49,6 +47,14 @@ struct Content {
     std::vector<MeshletDetail> details;
     std::vector<uint32_t> words;
 };
+
+std::array<Bytes, 4> bytesOf(std::span<const TriangleRanges> ranges,
+                             std::span<const Meshlet> meshlets,
+                             std::span<const MeshletDetail> details,
+                             std::span<const uint32_t> words) {
+    return {std::as_bytes(ranges), std::as_bytes(meshlets), std::as_bytes(details),
+            std::as_bytes(words)};
+}
 
 GeometryHash sha256(Bytes bytes) {
     GeometryHash hash;
@@ -114,9 +120,7 @@ readContent(const fs::path& file, const GeometryHash& hash, Header& header, Cont
     read(out.meshlets, header.counts.meshlets);
     read(out.details, header.counts.details);
     read(out.words, header.counts.words);
-    const std::array content = {
-        std::as_bytes(std::span(out.ranges)), std::as_bytes(std::span(out.meshlets)),
-        std::as_bytes(std::span(out.details)), std::as_bytes(std::span(out.words))};
+    const auto content = bytesOf(out.ranges, out.meshlets, out.details, out.words);
     return stream && hashOf(header.counts, content) == header.content ? "" : "is damaged";
 }
 
@@ -216,13 +220,14 @@ void makeRoom(const fs::path& file, uint64_t bytes, uint64_t most_bytes) {
 GeometryHash hashOfGeometry(const scene::Scene& scene, const PackOptions& options) {
     std::vector<Bytes> parts;
     std::vector<uint8_t> kinds;
+    const std::vector<bool> bent = bentMeshes(scene);
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
         for (const auto& primitive : scene.meshes[m].primitives) {
             parts.push_back(std::as_bytes(std::span(primitive.positions)));
             parts.push_back(std::as_bytes(std::span(primitive.indices)));
             kinds.push_back(isExtended(primitive) ? 1 : 0);
         }
-        kinds.push_back(isBent(scene, m) ? 3 : 2);
+        kinds.push_back(bent[m] ? 3 : 2);
     }
     const std::array<uint64_t, 3> how = {options.most_at_once, options.detail_levels ? 1U : 0U,
                                          MESHOPTIMIZER_VERSION};
@@ -284,9 +289,8 @@ Result<void> writeGeometry(const fs::path& file,
             ranges.push_back(primitive);
         }
     }
-    const std::array content = {
-        std::as_bytes(std::span(ranges)), std::as_bytes(std::span(packed.triangles.meshlets)),
-        std::as_bytes(std::span(packed.details)), std::as_bytes(std::span(packed.triangles.words))};
+    const auto content =
+        bytesOf(ranges, packed.triangles.meshlets, packed.details, packed.triangles.words);
     const Counts counts = {ranges.size(), packed.triangles.meshlets.size(), packed.details.size(),
                            packed.triangles.words.size(), packed.triangles.indices.size()};
     const Header header{.hash = hash, .content = hashOf(counts, content), .counts = counts};

@@ -112,11 +112,12 @@ void appendParts(std::vector<Part> parts, PackedGeometry& out) {
 }
 
 void appendCoarserLevels(const scene::Scene& scene, PackedGeometry& out) {
+    const std::vector<bool> bent = bentMeshes(scene);
     const std::span<const Meshlet> exact = out.triangles.meshlets;
     MeshletList coarser;
     out.details.resize(exact.size());
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
-        for (size_t p = 0; p < out.meshes[m].size() && !isBent(scene, m); ++p) {
+        for (size_t p = 0; p < out.meshes[m].size() && !bent[m]; ++p) {
             PackedPrimitive& primitive = out.meshes[m][p];
             const DetailLevels levels =
                 buildDetailLevels(scene.meshes[m].primitives[p].positions, out.triangles.indices,
@@ -207,10 +208,14 @@ bool isExtended(const scene::Primitive& primitive) {
     return !primitive.uv1.empty() || !primitive.colors.empty() || !primitive.tangents.empty();
 }
 
-bool isBent(const scene::Scene& scene, size_t mesh) {
-    return scene.motion && std::ranges::any_of(scene.motion->deformed, [&](const auto& deformed) {
-               return deformed.mesh == mesh;
-           });
+std::vector<bool> bentMeshes(const scene::Scene& scene) {
+    std::vector<bool> bent(scene.meshes.size(), false);
+    if (scene.motion) {
+        for (const scene::DeformedMesh& deformed : scene.motion->deformed) {
+            bent[deformed.mesh] = true;
+        }
+    }
+    return bent;
 }
 
 PackedGeometry packGeometry(const scene::Scene& scene, const PackOptions& options) {

@@ -66,8 +66,8 @@ using Corners = std::array<uint32_t, 3>;
 
 // Whether the primitive has ExtendedVertex data.
 [[nodiscard]] bool isExtended(const scene::Primitive& primitive);
-// Whether an instance bends the mesh.
-[[nodiscard]] bool isBent(const scene::Scene& scene, size_t mesh);
+// Of each mesh, whether an instance bends it.
+[[nodiscard]] std::vector<bool> bentMeshes(const scene::Scene& scene);
 
 // Meshlets of a primitive of more triangles than that are made of so many at once, of neighbours:
 // on several threads, and their bounds are others than those of all at once would be. The same

@@ -7,10 +7,9 @@
 namespace froxel::render {
 namespace {
 
-// Small meshlets cull well and still amortise a draw; meshoptimizer wants a multiple of 4.
 using io::kMeshletTriangles;
 using io::kMeshletVertices;
-static_assert(kMeshletTriangles % 4 == 0);
+static_assert(kMeshletTriangles % 4 == 0, "meshoptimizer wants it so");
 constexpr float kConeWeight = 0.5F;
 
 constexpr uint32_t kFree = 0xffffffffU;
