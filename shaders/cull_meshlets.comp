@@ -86,12 +86,12 @@ shared uint group_first;
 
 // Makes room for so many in the list, of which each batch has its part; where it begins.
 uint appendVisible(uint count) {
-    uint first = atomicAdd(batches[0].meshlets_of_all, count);
+    uint first = atomicAdd(batches[0].listed_of_all, count);
     uint most = batches[0].most;
     for (uint at = first; at < first + count;) {
         uint batch = at / most;
         uint end = min((batch + 1u) * most, first + count);
-        atomicAdd(batches[batch].meshlets.x, end - at);
+        atomicAdd(batches[batch].listed.x, end - at);
         batches[batch].others.x = kRasterBlockGroups; // whoever is first or last
         at = end;
     }

@@ -38,11 +38,12 @@ uint triangleOfBlock(uint64_t block, uint count) {
 
 void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, uint id,
                uvec2 first) {
-    Edges edges;
     bool both_sides = (item.flags & kMaterialDoubleSided) != 0;
-    if (!setEdges(a, b, c, mirrored, both_sides, ivec2(first), edges)) {
+    int64_t area = doubleArea(a, b, c);
+    if (!showsFace(area, mirrored, both_sides)) {
         return;
     }
+    Edges edges = edgesAt(ivec2(first), a, b, c, area);
     // Each edge where it is highest in the block.
     const int kLast = int(kRasterBlock) - 1;
     if (!isInside(edges.inside + kLast * (max(edges.step_x, 0) + max(edges.step_y, 0)))) {

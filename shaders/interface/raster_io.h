@@ -11,11 +11,13 @@ FROXEL_IO_NAMESPACE_BEGIN
 FROXEL_CONST uint kSubpixelBits = 8U;
 FROXEL_CONST float kGuardPx = 8192.0F; // from the picture's middle
 
-FROXEL_CONST uint kRasterGroup = 128U;     // invocations a meshlet: one a triangle, then one a row
-FROXEL_CONST uint kRasterSmall = 16U;      // pixels a side of what a meshlet's workgroup draws
-FROXEL_CONST uint kRasterBlock = 32U;      // pixels a side of the blocks of larger triangles
-FROXEL_CONST uint kRasterBlockGroup = 64U; // invocations a block
+FROXEL_CONST uint kRasterGroup = 128U;        // invocations a meshlet
+FROXEL_CONST uint kRasterTiny = 4U;           // pixels of a box that one of them draws by itself
+FROXEL_CONST uint kRasterSmall = 16U;         // pixels a side of what a meshlet's workgroup draws
+FROXEL_CONST uint kRasterBlock = 32U;         // pixels a side of the blocks of larger triangles
+FROXEL_CONST uint kRasterBlockGroup = 64U;    // invocations a block
 FROXEL_CONST uint kRasterBlockGroups = 4096U; // workgroups, which take runs of blocks in turns
+FROXEL_CONST uint kRasterHiddenGroup = 64U;   // invocations, which take meshlets in turns
 FROXEL_CONST uint kRasterRun = 8U;            // blocks
 
 // RasterBatch::large: blocks in the low bits, large triangles above.
@@ -36,15 +38,17 @@ FROXEL_SIZE_ASSERT(Dispatch, 12);
 
 // Visible meshlets that are drawn together, since their large triangles have room together.
 struct RasterBatch {
-    Dispatch meshlets; // a workgroup a visible meshlet
-    Dispatch others;   // of the passes that follow: kRasterBlockGroups, or none where x is 0 above
+    Dispatch listed; // visible meshlets; drawn by the first batch, a workgroup each
+    Dispatch drawn;  // by a later one: those of them that earlier batches do not hide
+    Dispatch others; // of all other passes: kRasterBlockGroups, or none where none is listed
+    uint most;       // meshlets of a batch
     uint64_t large;
-    uint first;           // of visible_meshlets[]
-    uint most;            // meshlets of a batch
-    uint meshlets_of_all; // of the first: those of all batches
+    uint first;         // of visible_meshlets[], of those listed
+    uint first_drawn;   // of those drawn
+    uint listed_of_all; // of the first: those of all batches
     uint padding0;
 };
-FROXEL_SIZE_ASSERT(RasterBatch, 48);
+FROXEL_SIZE_ASSERT(RasterBatch, 64);
 
 // A triangle that is drawn in blocks.
 struct LargeTriangle {

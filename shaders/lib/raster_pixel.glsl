@@ -1,8 +1,5 @@
 // Writes a pixel of a triangle, where it is the nearest so far and its material does not mask it.
-layout(push_constant) uniform RasterBlock {
-    uint only_material; // of masked ones: kAnyMaterial, or that whose textures are bound
-    uint batch;
-};
+#include "lib/raster_push.glsl"
 
 // Masked materials have pipelines of their own: others need a fraction of the registers.
 const bool kMasked = (MATERIAL_FLAGS & kMaterialMask) != 0;

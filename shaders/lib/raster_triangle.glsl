@@ -45,13 +45,20 @@ struct Corner {
     float depth;  // where it was before
 };
 
-Corner toScreen(vec4 clip) {
+// In subpixels from the picture's middle, and its depth.
+vec3 onScreen(vec4 clip) {
     precise vec2 ndc = clip.xy / clip.w;
     precise vec2 from_middle = ndc * (halfSize() * float(1u << kSubpixelBits));
-    ivec2 middle = ivec2(frame.camera.width_px, frame.camera.height_px) << (kSubpixelBits - 1u);
-    vec2 snapped = floor(from_middle + 0.5);
-    return Corner(ivec2(snapped) + middle, snapped - from_middle, clip.z / clip.w);
+    return vec3(from_middle, clip.z / clip.w);
 }
+
+Corner snap(vec3 on_screen) {
+    ivec2 middle = ivec2(frame.camera.width_px, frame.camera.height_px) << (kSubpixelBits - 1u);
+    vec2 snapped = floor(on_screen.xy + 0.5);
+    return Corner(ivec2(snapped) + middle, snapped - on_screen.xy, on_screen.z);
+}
+
+Corner toScreen(vec4 clip) { return snap(onScreen(clip)); }
 
 // Of the triangle's plane at its snapped corners, so that snapping bends no surface. Of a sliver,
 // no higher than a few subpixels, the depths as they are: its plane could lead anywhere.
@@ -70,6 +77,23 @@ vec3 depthsAtCorners(Corner a, Corner b, Corner c) {
     return depths + vec3(dot(slope, a.snapped), dot(slope, b.snapped), dot(slope, c.snapped));
 }
 
+// Twice its area; positive where its corners are clockwise on the screen, since y points down.
+int64_t doubleArea(Corner a, Corner b, Corner c) {
+    ivec2 ab = b.at - a.at;
+    ivec2 ac = c.at - a.at;
+    return int64_t(ab.x) * int64_t(ac.y) - int64_t(ab.y) * int64_t(ac.x);
+}
+
+bool showsFace(int64_t area, bool mirrored, bool both_sides) {
+    bool front = (area < 0) != mirrored;
+    return area != 0 && (front || both_sides);
+}
+
+// Holds edge functions and areas of all triangles that are drawn.
+#ifndef FROXEL_EDGE_INT
+#define FROXEL_EDGE_INT int64_t
+#endif
+
 // Edge functions at a pixel's centre, each without its last 8 bits, which no step to another pixel
 // changes; not negative inside, the rule for edges taken in. Weights of the corners are
 // (inside + rest) * scale, and the depth is their sum.
@@ -84,39 +108,34 @@ struct Edges {
 // Of the edge from p to q; inside is right of it as seen on the screen.
 void setEdge(ivec2 p, ivec2 q, ivec2 center, uint i, inout Edges e) {
     ivec2 d = q - p;
-    int64_t value = int64_t(d.x) * int64_t(center.y - p.y) - int64_t(d.y) * int64_t(center.x - p.x);
+    ivec2 from = center - p;
+    FROXEL_EDGE_INT value = FROXEL_EDGE_INT(d.x) * FROXEL_EDGE_INT(from.y) -
+                            FROXEL_EDGE_INT(d.y) * FROXEL_EDGE_INT(from.x);
     bool top_left = d.y < 0 || (d.y == 0 && d.x > 0);
     // Farther off than a block can lead back: its sign is all that counts.
-    const int64_t kFar = int64_t(1 << 29);
-    int64_t kept = clamp((value - (top_left ? 0 : 1)) >> int(kSubpixelBits), -kFar, kFar);
+    const FROXEL_EDGE_INT kFar = FROXEL_EDGE_INT(1 << 29);
+    FROXEL_EDGE_INT kept = clamp((value - (top_left ? 0 : 1)) >> int(kSubpixelBits), -kFar, kFar);
     e.inside[i] = int(kept);
     e.rest[i] = float(value - (kept << int(kSubpixelBits))) * (1.0 / float(1u << kSubpixelBits));
     e.step_x[i] = -d.y;
     e.step_y[i] = d.x;
 }
 
-// At `pixel`, for pixels up to 63 beyond it. False: nothing to draw.
-bool setEdges(Corner a, Corner b, Corner c, bool mirrored, bool both_sides, ivec2 pixel,
-              out Edges e) {
-    ivec2 ab = b.at - a.at;
-    ivec2 ac = c.at - a.at;
-    int64_t area = int64_t(ab.x) * int64_t(ac.y) - int64_t(ab.y) * int64_t(ac.x);
-    bool front = (area < 0) != mirrored; // y points down: clockwise is positive
-    if (area == 0 || (!front && !both_sides)) {
-        return false;
-    }
+// At `pixel`, for pixels up to 63 beyond it. area: doubleArea of them, not 0.
+Edges edgesAt(ivec2 pixel, Corner a, Corner b, Corner c, FROXEL_EDGE_INT area) {
     if (area < 0) {
         Corner other = b;
         b = c;
         c = other;
         area = -area;
     }
+    Edges e;
     ivec2 center = (pixel << int(kSubpixelBits)) + (1 << int(kSubpixelBits - 1u));
     setEdge(b.at, c.at, center, 0, e);
     setEdge(c.at, a.at, center, 1, e);
     setEdge(a.at, b.at, center, 2, e);
     e.scale = depthsAtCorners(a, b, c) * (float(1u << kSubpixelBits) / float(area));
-    return true;
+    return e;
 }
 
 bool isInside(ivec3 inside) { return (inside.x | inside.y | inside.z) >= 0; }

@@ -58,12 +58,14 @@ gpu::Spirv computeShader(Step step, bool bindless) {
     case Step::kMeshlets:
         return bindless ? shaders::raster_meshlets_bindless_comp()
                         : shaders::raster_meshlets_comp();
-    case Step::kMeshletsOfBatches:
-        return bindless ? shaders::raster_batches_bindless_comp() : shaders::raster_batches_comp();
+    case Step::kManyMeshlets:
+        return bindless ? shaders::raster_many_bindless_comp() : shaders::raster_many_comp();
     case Step::kBlocks:
         return bindless ? shaders::raster_blocks_bindless_comp() : shaders::raster_blocks_comp();
     case Step::kFar:
         return shaders::raster_far_comp();
+    case Step::kHidden:
+        return shaders::raster_hidden_comp();
     case Step::kUnpack:
         break;
     }
@@ -80,12 +82,14 @@ const char* nameOf(Step step) {
         return "cull (list, detail)";
     case Step::kMeshlets:
         return "raster meshlets";
-    case Step::kMeshletsOfBatches:
-        return "raster meshlets (batches)";
+    case Step::kManyMeshlets:
+        return "raster meshlets (many)";
     case Step::kBlocks:
         return "raster blocks";
     case Step::kFar:
         return "farthest depths";
+    case Step::kHidden:
+        return "hidden meshlets";
     case Step::kUnpack:
         break;
     }

@@ -46,9 +46,10 @@ class VisibilityPipelines {
         kCullList,
         kCullListDetail,
         kMeshlets,
-        kMeshletsOfBatches,
+        kManyMeshlets,
         kBlocks,
         kFar,
+        kHidden,
         kUnpack
     };
     [[nodiscard]] vk::Pipeline compute(ComputeStep step, MaterialFlags material_flags = 0);

@@ -25,6 +25,7 @@ inline constexpr const char* kRasterClear = "raster_clear";
 inline constexpr const char* kRasterMeshlets = "raster_meshlets";
 inline constexpr const char* kRasterBlocks = "raster_blocks";
 inline constexpr const char* kRasterFar = "raster_far";
+inline constexpr const char* kRasterHidden = "raster_hidden";
 inline constexpr const char* kRasterUnpack = "raster_unpack";
 inline constexpr const char* kGbuffer = "gbuffer";
 inline constexpr const char* kResolve = "resolve";
@@ -82,6 +83,7 @@ inline constexpr std::array kPricedWith = {PricedWith{pass::kAssignLines, pass::
                                            PricedWith{pass::kRasterMeshlets, pass::kVisibility},
                                            PricedWith{pass::kRasterBlocks, pass::kVisibility},
                                            PricedWith{pass::kRasterFar, pass::kVisibility},
+                                           PricedWith{pass::kRasterHidden, pass::kVisibility},
                                            PricedWith{pass::kRasterUnpack, pass::kVisibility},
                                            PricedWith{pass::kFogIntegrate, pass::kFogScatter},
                                            PricedWith{pass::kWeighted, pass::kTransparent},

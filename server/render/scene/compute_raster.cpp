@@ -17,6 +17,9 @@ bool isMasked(const VisibilityGroup& group) {
     return (group.material_flags & io::kMaterialMask) != 0;
 }
 
+// A GPU of 132 multiprocessors runs some thousands of workgroups at a time.
+constexpr size_t kManyMeshlets = 16'384;
+
 // Of a batch, all of whose triangles may be large.
 uint32_t
 meshletsOfBatch(const gpu::Device& device, const VisibilityScene& scene, uint32_t most_triangles) {
@@ -33,12 +36,14 @@ size_t batchesOf(const VisibilityScene& scene, uint32_t meshlet_count) {
 std::vector<io::RasterBatch> emptyBatches(const VisibilityScene& scene, uint32_t meshlet_count) {
     std::vector<io::RasterBatch> batches(batchesOf(scene, meshlet_count));
     for (uint32_t i = 0; i < batches.size(); ++i) {
-        batches[i] = {.meshlets = {0, 1, 1},
+        batches[i] = {.listed = {0, 1, 1},
+                      .drawn = {0, 1, 1},
                       .others = {0, 1, 1},
+                      .most = meshlet_count,
                       .large = 0,
                       .first = i * meshlet_count,
-                      .most = meshlet_count,
-                      .meshlets_of_all = 0,
+                      .first_drawn = (i > 0 ? i - 1 : 0) * meshlet_count,
+                      .listed_of_all = 0,
                       .padding0 = 0};
     }
     return batches;
@@ -63,6 +68,7 @@ ComputeRaster::ComputeRaster(const gpu::Device& device,
                              uint32_t most_triangles)
     : arena(device),
       empty_batches(emptyBatches(scene, meshletsOfBatch(device, scene, most_triangles))),
+      many_meshlets(empty_batches.size() > 1 || scene.placed.size() > kManyMeshlets),
       opaque(!std::ranges::all_of(scene.groups, isMasked)),
       masked_flags(std::ranges::any_of(scene.groups, isMasked) ? scene.material_flags : 0) {
     const auto scratch = [&](size_t bytes, vk::BufferUsageFlags usage, const char* name) {

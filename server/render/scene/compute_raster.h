@@ -32,6 +32,7 @@ class ComputeRaster {
     // As each frame begins them.
     const std::vector<io::RasterBatch> empty_batches;
 
+    const bool many_meshlets;         // more than a device draws at a time
     const bool opaque;                // there are opaque materials
     const MaterialFlags masked_flags; // of masked ones; 0: there are none
     // Whose textures alpha tests read, where materials are bound one at a time.

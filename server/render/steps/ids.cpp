@@ -34,6 +34,8 @@ void recordComputeRaster(const FrameContext& frame, bool culls) {
         if (batch + 1 < batch_count) {
             recordRasterFar(frame, batch);
             nextComputePass(cmd);
+            recordRasterHidden(frame, batch + 1);
+            nextIndirectPass(cmd);
         }
     }
     recordRasterUnpack(frame);

@@ -49,11 +49,15 @@ void drawMaterials(const FrameContext& frame, RasterStep step, uint32_t batch, D
     }
 }
 
+// One of its counts of workgroups.
+void dispatchOf(const FrameContext& frame, uint32_t batch, size_t offset_of_count) {
+    frame.slot.cmd.dispatchIndirect(*raster(frame).batches.handle,
+                                    batch * sizeof(io::RasterBatch) + offset_of_count);
+}
+
 // None where the batch is empty.
 void dispatchOthers(const FrameContext& frame, uint32_t batch) {
-    frame.slot.cmd.dispatchIndirect(*raster(frame).batches.handle,
-                                    batch * sizeof(io::RasterBatch) +
-                                        offsetof(io::RasterBatch, others));
+    dispatchOf(frame, batch, offsetof(io::RasterBatch, others));
 }
 
 vk::BufferImageCopy wholeImage(const FrameContext& frame, vk::ImageAspectFlags aspect) {
@@ -90,12 +94,11 @@ uint32_t rasterBatchCount(const FrameContext& frame) {
 
 void recordRasterMeshlets(const FrameContext& frame, uint32_t batch) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterMeshlets);
+    const size_t drawn =
+        batch > 0 ? offsetof(io::RasterBatch, drawn) : offsetof(io::RasterBatch, listed);
     const auto step =
-        rasterBatchCount(frame) > 1 ? RasterStep::kMeshletsOfBatches : RasterStep::kMeshlets;
-    drawMaterials(frame, step, batch, [&] {
-        frame.slot.cmd.dispatchIndirect(*raster(frame).batches.handle,
-                                        batch * sizeof(io::RasterBatch));
-    });
+        raster(frame).many_meshlets ? RasterStep::kManyMeshlets : RasterStep::kMeshlets;
+    drawMaterials(frame, step, batch, [&] { dispatchOf(frame, batch, drawn); });
 }
 
 void recordRasterBlocks(const FrameContext& frame, uint32_t batch) {
@@ -106,6 +109,13 @@ void recordRasterBlocks(const FrameContext& frame, uint32_t batch) {
 void recordRasterFar(const FrameContext& frame, uint32_t batch) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterFar);
     bindVisibilityCompute(frame, frame.visibility->pipelines.compute(RasterStep::kFar));
+    dispatchOthers(frame, batch);
+}
+
+void recordRasterHidden(const FrameContext& frame, uint32_t batch) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterHidden);
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(RasterStep::kHidden));
+    pushVisibilityWords(frame, {io::kAnyMaterial, batch});
     dispatchOthers(frame, batch);
 }
 

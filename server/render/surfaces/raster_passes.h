@@ -9,14 +9,16 @@ namespace froxel::render {
 void recordRasterClear(const FrameContext& frame); // clears words and batches
 // Writes the list of visible meshlets; culls: not of all.
 void recordRasterCull(const FrameContext& frame, bool culls);
-// Of which each batch is drawn by two passes, one batch after another; a third pass tells the next
-// one what it need not draw.
+// Of which each batch is drawn by two passes, one batch after another.
 [[nodiscard]] uint32_t rasterBatchCount(const FrameContext& frame);
-// Reads that list; writes words and large triangles.
+// Of a batch that follows others: keeps what those do not hide. Reads the farthest depths.
+void recordRasterHidden(const FrameContext& frame, uint32_t batch);
+// Reads the list; writes words and large triangles.
 void recordRasterMeshlets(const FrameContext& frame, uint32_t batch);
 // Reads large triangles; writes words.
 void recordRasterBlocks(const FrameContext& frame, uint32_t batch);
-void recordRasterFar(const FrameContext& frame, uint32_t batch); // reads words
+// Reads words; writes the farthest depths.
+void recordRasterFar(const FrameContext& frame, uint32_t batch);
 void recordRasterUnpack(const FrameContext& frame); // reads words; writes depth and ids
 void recordRasterSpoil(const FrameContext& frame);  // for tests: overwrites words
 

@@ -1,7 +1,20 @@
-// Whether a meshlet lies behind what earlier batches of the frame drew, wherever it may be seen: it
-// wins no pixel then, so that leaving it out changes no bit. All of a workgroup ask together.
-#include "lib/instance_scale.glsl"
+// Leaves out the meshlets of a batch that lie behind what earlier batches of the frame drew,
+// wherever they may be seen: they win no pixel, so that no bit changes. An invocation a meshlet, in
+// turns; the others go to where the list of the batch before was.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_GOOGLE_include_directive : require
+#define FROXEL_CAMERA_ALONE
+#include "lib/frame.glsl"
+#include "lib/visibility_set.glsl"
+#include "lib/raster_set.glsl"
+#include "lib/raster_push.glsl"
 #include "lib/raster_far.glsl"
+#include "lib/instance_scale.glsl"
+
+layout(local_size_x = kRasterHiddenGroup) in;
 
 struct ScreenBounds {
     uvec2 low; // pixels
@@ -41,8 +54,6 @@ bool boundsOnScreen(InstanceView view, Meshlet m, out ScreenBounds bounds) {
     return true;
 }
 
-shared uint may_be_seen;
-
 // In how many blocks of this size it lies, from the first one on.
 uvec2 blocksUnder(ScreenBounds bounds, uint side) {
     return bounds.high / side - bounds.low / side + 1u;
@@ -53,25 +64,42 @@ bool isHidden(InstanceView view, Meshlet m) {
     if (!boundsOnScreen(view, m, bounds)) {
         return false;
     }
+    const uint kMostBlocks = 32u;
     uvec2 count = blocksUnder(bounds, kFarFine);
-    bool fine = count.x * count.y <= kRasterGroup;
+    bool fine = count.x * count.y <= kMostBlocks;
     uint side = fine ? kFarFine : kFarCoarse;
     count = blocksUnder(bounds, side);
-    if (count.x * count.y > kRasterGroup) {
+    if (count.x * count.y > kMostBlocks) {
         return false;
     }
-    uint lane = gl_LocalInvocationIndex;
-    if (lane == 0u) {
-        may_be_seen = 0u;
-    }
-    barrier();
-    if (lane < count.x * count.y) {
-        uvec2 block = bounds.low / side + uvec2(lane % count.x, lane / count.x);
-        uint begin = fine ? 0u : coarseBlocksBegin();
-        if (!(far_depths[begin + block.y * blocksOf(side).x + block.x] > bounds.depth)) {
-            may_be_seen = 1u;
+    uint row_blocks = blocksOf(side).x;
+    uvec2 low = bounds.low / side;
+    uint first = (fine ? 0u : coarseBlocksBegin()) + low.y * row_blocks + low.x;
+    for (uint y = 0; y < count.y; ++y) {
+        for (uint x = 0; x < count.x; ++x) {
+            if (!(far_depths[first + y * row_blocks + x] > bounds.depth)) {
+                return false;
+            }
         }
     }
-    barrier();
-    return may_be_seen == 0u;
+    return true;
+}
+
+bool mayBeSeen(uint meshlet) {
+    PlacedMeshlet placed = placed_meshlets[meshlet];
+    VisibleItem item = items[placed.item];
+    return item.bends != 0u || !isHidden(instances[item.instance], meshlets[placed.meshlet]);
+}
+
+void main() {
+    uint first = batches[batch].first;
+    uint count = batches[batch].listed.x;
+    for (uint i = gl_GlobalInvocationID.x; i < count;
+         i += gl_NumWorkGroups.x * kRasterHiddenGroup) {
+        uint meshlet = visible_meshlets[first + i];
+        if (mayBeSeen(meshlet)) {
+            uint place = atomicAdd(batches[batch].drawn.x, 1u);
+            visible_meshlets[batches[batch].first_drawn + place] = meshlet;
+        }
+    }
 }
