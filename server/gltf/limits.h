@@ -29,7 +29,7 @@ inline constexpr uint64_t kMaxPlacedPrimitives = limitOf(1ULL << 22U); // of all
 inline constexpr uint64_t kMaxFileBytes = limitOf(4ULL << 30U);        // all of a scene together
 inline constexpr uint64_t kMaxDecodedViewBytes = limitOf(4ULL << 30U); // EXT_meshopt_compression
 inline constexpr uint64_t kMaxVertices = limitOf(1ULL << 26U);
-inline constexpr uint64_t kMaxIndices = limitOf(3ULL << 26U);
+inline constexpr uint64_t kMaxIndices = limitOf(3ULL << 27U);
 // Of a primitive: beyond, the shader derives its tangents.
 inline constexpr uint64_t kMostTangentCorners = limitOf(3ULL << 23U);
 inline constexpr uint64_t kMaxInfluences = limitOf(1ULL << 27U);

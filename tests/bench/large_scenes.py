@@ -18,14 +18,15 @@ from pathlib import Path
 
 FIELDS = ["1000000", "10000000", "40000000", "1000000x1000"]
 ERRORS_PX = [0, 1, 4]
-FRAMES = 20
+FRAMES = 200
+WARMUP_FRAMES = 1000  # an idle GPU takes about half a second to raise its clock
 
 
 def draw(froxel: str, scene: Path, error_px: float, options: list[str]) -> dict:
     timings = scene.with_suffix(f".{error_px}.json")
     command = [froxel, "render", "--scene", str(scene), "--camera", "Field", "--size", "1920x1080"]
     command += ["--lights", "5000", "--environment", "off", "--geometry-error", str(error_px)]
-    command += ["--frames", str(FRAMES), "--timings", str(timings)]
+    command += ["--frames", str(FRAMES), "--warmup", str(WARMUP_FRAMES), "--timings", str(timings)]
     command += ["--log-level", "info", "--pipeline-cache", str(scene.parent / "cache"), *options]
     start = time.monotonic()
     ran = subprocess.run(command, capture_output=True, text=True)
