@@ -1,0 +1,24 @@
+// A scene as one run of bytes, in which the process that read its file hands it to another one of
+// the same binary. Not a file format: it changes with the structs.
+#pragma once
+
+#include "core/error.h"
+#include "scene/scene.h"
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+namespace froxel::bake {
+
+using ByteSink = std::function<void(std::span<const std::byte>)>;
+
+// All of it but its files. Passes on what `sink` throws.
+void writeFlat(const scene::Scene& scene, const ByteSink& sink);
+
+// Trusts nothing in the bytes: takes memory in proportion to them, and checks what whoever uses the
+// scene relies on (scene::findFault(), sizes of images, finite cameras, lights and bounds, numbers
+// of things and lengths of names). Errors: kScene, one line. Throws std::bad_alloc.
+[[nodiscard]] Result<scene::Scene> readFlat(std::span<const std::byte> bytes);
+
+} // namespace froxel::bake
