@@ -5,10 +5,10 @@
 namespace froxel::gltf {
 
 BufferViews::BufferViews(const Document& document,
-                         SceneFolder& folder,
+                         SceneFiles& files,
                          LoadProgress& progress,
                          ReadMemory& memory)
-    : document_(document), folder_(folder), progress_(progress), buffers_(document.buffers.size()),
+    : document_(document), files_(files), progress_(progress), buffers_(document.buffers.size()),
       decoded_bytes_("bytes of decompressed buffer views", kMaxDecodedViewBytes, 1, memory) {}
 
 std::span<const std::byte> BufferViews::bufferBytes(size_t buffer) {
@@ -23,7 +23,7 @@ std::span<const std::byte> BufferViews::bufferBytes(size_t buffer) {
     } else {
         std::optional<Bytes>& loaded = buffers_[buffer];
         if (!loaded) {
-            loaded = folder_.read(source.uri, user);
+            loaded = files_.read(source.uri, user);
         }
         bytes = *loaded;
     }

@@ -4,7 +4,7 @@
 #include "gltf/document.h"
 #include "gltf/limits.h"
 #include "gltf/load_progress.h"
-#include "gltf/scene_folder.h"
+#include "gltf/scene_files.h"
 
 #include <cstddef>
 #include <map>
@@ -19,7 +19,7 @@ namespace froxel::gltf {
 class BufferViews {
   public:
     BufferViews(const Document& document,
-                SceneFolder& folder,
+                SceneFiles& files,
                 LoadProgress& progress,
                 ReadMemory& memory);
 
@@ -36,7 +36,7 @@ class BufferViews {
     [[nodiscard]] std::span<const std::byte> bufferBytes(size_t buffer);
 
     const Document& document_;
-    SceneFolder& folder_;
+    SceneFiles& files_;
     LoadProgress& progress_;
     std::vector<std::optional<Bytes>> buffers_; // what came from a file or a data: URI
     std::map<size_t, Bytes> decoded_views_;

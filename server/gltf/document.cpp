@@ -229,9 +229,9 @@ void takeMemory(const Json& root, ReadMemory& memory) {
 
 } // namespace
 
-Document readDocument(SceneFolder& folder, ReadMemory& memory, Warnings& warnings) {
+Document readDocument(SceneFiles& files, ReadMemory& memory, Warnings& warnings) {
     Document document;
-    document.file = folder.readSceneFile();
+    document.file = files.readSceneFile();
     std::span<const std::byte> text = document.file;
     if (isGlb(document.file)) {
         const GlbChunks chunks = splitGlb(document.file, warnings);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gltf/failure.h"
-#include "gltf/scene_folder.h"
+#include "gltf/scene_files.h"
 
 #include <tiny_gltf.h>
 
@@ -87,6 +87,6 @@ struct Document {
 };
 
 // Throws Failure, also where `memory` is not enough; std::bad_alloc.
-[[nodiscard]] Document readDocument(SceneFolder& folder, ReadMemory& memory, Warnings& warnings);
+[[nodiscard]] Document readDocument(SceneFiles& files, ReadMemory& memory, Warnings& warnings);
 
 } // namespace froxel::gltf

@@ -5,6 +5,7 @@
 #include "gltf/failure.h"
 #include "gltf/load_progress.h"
 #include "gltf/scene_builder.h"
+#include "gltf/scene_files.h"
 #include "gltf/scene_folder.h"
 
 #include <exception>
@@ -18,23 +19,11 @@ Error sceneError(const std::filesystem::path& file, const std::string& message) 
     return {ErrorCode::kScene, printable(file.filename().string(), 300) + ": " + message};
 }
 
-} // namespace
-
-Result<scene::Scene>
-load(const std::filesystem::path& file, const ProgressReport& report, const LoadLimits& limits) {
+// What `load` gives, or why it cannot.
+template <class Load>
+Result<scene::Scene> resultOf(const std::filesystem::path& file, Load load) {
     try {
-        Warnings warnings;
-        LoadProgress progress(report);
-        ReadMemory memory(limits.memory_bytes);
-        progress.reading(0);
-        SceneFolder folder(file, limits.no_link, progress, memory);
-        const Document document = readDocument(folder, memory, warnings);
-        scene::Scene scene = buildScene(document, folder, progress, memory, warnings);
-        scene.name = file.stem().string();
-        scene.file_bytes = folder.fileBytes();
-        scene.files = folder.takeFiles();
-        warnings.moveInto(scene);
-        return scene;
+        return load();
     } catch (const CalledOff&) {
         return Error{ErrorCode::kCancelled, printable(file.filename().string(), 300) +
                                                 ": cancelled, because nobody waits for it"};
@@ -45,6 +34,42 @@ load(const std::filesystem::path& file, const ProgressReport& report, const Load
     } catch (const std::exception& error) {
         return sceneError(file, "cannot be read: " + printable(error.what(), 300));
     }
+}
+
+scene::Scene read(FileOpener& opener,
+                  const std::filesystem::path& file,
+                  const ProgressReport& report,
+                  uint64_t memory_bytes) {
+    Warnings warnings;
+    LoadProgress progress(report);
+    ReadMemory memory(memory_bytes);
+    progress.reading(0);
+    SceneFiles files(opener, progress, memory);
+    const Document document = readDocument(files, memory, warnings);
+    scene::Scene scene = buildScene(document, files, progress, memory, warnings);
+    scene.name = file.stem().string();
+    scene.file_bytes = files.fileBytes();
+    warnings.moveInto(scene);
+    return scene;
+}
+
+} // namespace
+
+Result<scene::Scene>
+load(const std::filesystem::path& file, const ProgressReport& report, const LoadLimits& limits) {
+    return resultOf(file, [&] {
+        SceneFolder folder(file, limits.no_link);
+        scene::Scene scene = read(folder, file, report, limits.memory_bytes);
+        scene.files = folder.takeFiles();
+        return scene;
+    });
+}
+
+Result<scene::Scene> loadFrom(FileOpener& opener,
+                              const std::filesystem::path& file,
+                              const ProgressReport& report,
+                              uint64_t memory_bytes) {
+    return resultOf(file, [&] { return read(opener, file, report, memory_bytes); });
 }
 
 } // namespace froxel::gltf

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/progress.h"
+#include "gltf/file_opener.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -27,5 +28,11 @@ struct LoadLimits {
 [[nodiscard]] Result<scene::Scene> load(const std::filesystem::path& path,
                                         const ProgressReport& report = workOn,
                                         const LoadLimits& limits = {});
+
+// Likewise of files that somebody else opens; `file` names the scene. Without Scene::files.
+[[nodiscard]] Result<scene::Scene> loadFrom(FileOpener& opener,
+                                            const std::filesystem::path& file,
+                                            const ProgressReport& report,
+                                            uint64_t memory_bytes);
 
 } // namespace froxel::gltf

@@ -42,12 +42,12 @@ std::span<const std::byte> viewBytes(int view, BufferViews& views, const std::st
 }
 
 void find(
-    Job& job, const ImageSource& source, SceneFolder& folder, BufferViews& views, Budget& pixels) {
+    Job& job, const ImageSource& source, SceneFiles& files, BufferViews& views, Budget& pixels) {
     if (source.uri.empty() && source.buffer_view < 0) {
         throw Unusable(warning::kNoSource, job.user + " has neither uri nor bufferView");
     }
     if (!source.uri.empty()) {
-        job.owned = folder.read(source.uri, job.user);
+        job.owned = files.read(source.uri, job.user);
         job.file = job.owned;
         job.user += isDataUri(source.uri) ? "" : " '" + printable(source.uri) + "'";
     } else {
@@ -67,14 +67,14 @@ void checkMimeType(const Job& job, const ImageSource& source, size_t number, War
 
 void begin(Job& job,
            const Document& document,
-           SceneFolder& folder,
+           SceneFiles& files,
            BufferViews& views,
            Budget& pixels,
            Warnings& warnings) {
     const size_t number = job.sources.front();
     job.user = thing("image", number);
     try {
-        find(job, document.images[number], folder, views, pixels);
+        find(job, document.images[number], files, views, pixels);
         checkMimeType(job, document.images[number], number, warnings);
     } catch (const Unusable& unusable) {
         job.unusable = unusable;
@@ -173,7 +173,7 @@ void leaveOut(const std::vector<Job>& jobs, scene::Scene& scene) {
 
 void loadImages(const Document& document,
                 const std::vector<std::vector<size_t>>& sources,
-                SceneFolder& folder,
+                SceneFiles& files,
                 BufferViews& views,
                 LoadProgress& progress,
                 ReadMemory& memory,
@@ -189,7 +189,7 @@ void loadImages(const Document& document,
     }
     while (!due.empty()) {
         for (Job* job : due) {
-            begin(*job, document, folder, views, pixels, warnings);
+            begin(*job, document, files, views, pixels, warnings);
         }
         decodeAll(due, progress);
         std::vector<Job*> again;

@@ -5,7 +5,7 @@
 #include "gltf/document.h"
 #include "gltf/failure.h"
 #include "gltf/load_progress.h"
-#include "gltf/scene_folder.h"
+#include "gltf/scene_files.h"
 #include "scene/scene.h"
 
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace froxel::gltf {
 // CalledOff.
 void loadImages(const Document& document,
                 const std::vector<std::vector<size_t>>& sources,
-                SceneFolder& folder,
+                SceneFiles& files,
                 BufferViews& views,
                 LoadProgress& progress,
                 ReadMemory& memory,

@@ -55,18 +55,18 @@ class CameraNames {
 class Builder {
   public:
     Builder(const Document& document,
-            SceneFolder& folder,
+            SceneFiles& files,
             LoadProgress& progress,
             ReadMemory& memory,
             Warnings& warnings)
         : document_(document), progress_(progress), memory_(memory), warnings_(warnings),
-          views_(document, folder, progress, memory), accessors_(document, views_),
+          views_(document, files, progress, memory), accessors_(document, views_),
           materials_(document, scene_, warnings),
           meshes_(document, views_, accessors_, materials_, scene_, memory, warnings),
           placed_(placeNodes(document.model, warnings)),
           motion_(document, placed_, weightCounts(), accessors_, memory, warnings) {}
 
-    scene::Scene build(SceneFolder& folder) {
+    scene::Scene build(SceneFiles& files) {
         scene_.material_variants = document_.material_variants;
         for (uint32_t place = 0; place < placed_.size(); ++place) {
             progress_.reading(static_cast<double>(place) / static_cast<double>(placed_.size()));
@@ -93,7 +93,7 @@ class Builder {
         if (scene_.motion) {
             scene_.bounds_world = motion::boundsOverClips(scene_);
         }
-        loadImages(document_, materials_.images(), folder, views_, progress_, memory_, scene_,
+        loadImages(document_, materials_.images(), files, views_, progress_, memory_, scene_,
                    warnings_);
         return std::move(scene_);
     }
@@ -306,11 +306,11 @@ class Builder {
 } // namespace
 
 scene::Scene buildScene(const Document& document,
-                        SceneFolder& folder,
+                        SceneFiles& files,
                         LoadProgress& progress,
                         ReadMemory& memory,
                         Warnings& warnings) {
-    return Builder(document, folder, progress, memory, warnings).build(folder);
+    return Builder(document, files, progress, memory, warnings).build(files);
 }
 
 } // namespace froxel::gltf

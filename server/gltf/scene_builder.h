@@ -3,14 +3,14 @@
 
 #include "gltf/document.h"
 #include "gltf/load_progress.h"
-#include "gltf/scene_folder.h"
+#include "gltf/scene_files.h"
 #include "scene/scene.h"
 
 namespace froxel::gltf {
 
 // Throws Failure, CalledOff.
 [[nodiscard]] scene::Scene buildScene(const Document& document,
-                                      SceneFolder& folder,
+                                      SceneFiles& files,
                                       LoadProgress& progress,
                                       ReadMemory& memory,
                                       Warnings& warnings);

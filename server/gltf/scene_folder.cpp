@@ -3,13 +3,9 @@
 #include "core/is_inside.h"
 #include "core/text.h"
 #include "gltf/failure.h"
-#include "gltf/uri.h"
 
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fcntl.h>
-#include <string_view>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -18,25 +14,6 @@ namespace froxel::gltf {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Of a file, until it is asked whether it is still wanted.
-constexpr size_t kReadAtOnce = size_t{16} << 20U;
-
-class Descriptor {
-  public:
-    explicit Descriptor(int value) : value_(value) {}
-    ~Descriptor() {
-        if (value_ >= 0) {
-            ::close(value_);
-        }
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    [[nodiscard]] int get() const { return value_; }
-
-  private:
-    int value_;
-};
 
 std::string reason(int error) {
     return std::generic_category().message(error);
@@ -55,13 +32,6 @@ bool passes(int error) {
     return error == EMFILE || error == ENFILE || error == ENOMEM || error == EIO || error == ESTALE;
 }
 
-// The format's specification: its first line, and at most 1024 bytes.
-bool isLfsPointer(const Bytes& bytes) {
-    constexpr std::string_view kBegin = "version https://git-lfs.github.com/spec/";
-    return bytes.size() >= kBegin.size() && bytes.size() <= 1024 &&
-           std::memcmp(bytes.data(), kBegin.data(), kBegin.size()) == 0;
-}
-
 [[noreturn]] void failToOpen(const std::string& what, int error) {
     if (passes(error)) {
         fail(what + reason(error));
@@ -71,12 +41,8 @@ bool isLfsPointer(const Bytes& bytes) {
 
 } // namespace
 
-SceneFolder::SceneFolder(const fs::path& scene_file,
-                         bool no_link,
-                         LoadProgress& progress,
-                         ReadMemory& memory)
-    : scene_file_(scene_file), no_link_(no_link), progress_(progress),
-      bytes_("bytes of files", kMaxFileBytes, 1, memory) {
+SceneFolder::SceneFolder(const fs::path& scene_file, bool no_link)
+    : scene_file_(scene_file), no_link_(no_link) {
     std::error_code error;
     const fs::path parent = scene_file.has_parent_path() ? scene_file.parent_path() : ".";
     folder_ = fs::canonical(parent, error);
@@ -85,20 +51,18 @@ SceneFolder::SceneFolder(const fs::path& scene_file,
     }
 }
 
-Bytes SceneFolder::readSceneFile() {
+OpenedFile SceneFolder::openScene() {
     files_.push_back({scene_file_, 0});
-    return readFile(scene_file_, no_link_, "the scene");
+    return openFile(scene_file_, no_link_, "the scene");
 }
 
 // NONBLOCK: opening a pipe must not wait for its writer.
-Bytes SceneFolder::readFile(const fs::path& path, bool canonical, const std::string& user) {
-    const std::string shown = "'" + printable(shownPath(path), 300) + "'";
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-    if (file.get() < 0) {
-        failToOpen(user + " cannot open " + shown + ": ", errno);
-    }
+OpenedFile SceneFolder::openFile(const fs::path& path, bool canonical, const std::string& user) {
+    const std::string name = printable(shownPath(path), 300);
+    const std::string shown = "'" + name + "'";
+    FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     struct stat status {};
-    if (::fstat(file.get(), &status) != 0) {
+    if (!file || ::fstat(file.get(), &status) != 0) {
         failToOpen(user + " cannot open " + shown + ": ", errno);
     }
     files_.back().stamp = stampOf(status);
@@ -109,31 +73,7 @@ Bytes SceneFolder::readFile(const fs::path& path, bool canonical, const std::str
         throw Unusable(warning::kMissingFile,
                        user + " names " + shown + ", which is not a regular file");
     }
-    const auto size = static_cast<size_t>(status.st_size);
-    bytes_.take(size, user);
-    Bytes bytes(size);
-    size_t done = 0;
-    while (done < size) {
-        progress_.ask();
-        const ssize_t got =
-            ::read(file.get(), bytes.data() + done, std::min(size - done, kReadAtOnce));
-        if (got < 0 && errno == EINTR) {
-            continue;
-        }
-        if (got <= 0) {
-            fail(user + " cannot read " + shown + ": " +
-                 (got < 0 ? reason(errno) : "it became shorter while it was read"));
-        }
-        done += static_cast<size_t>(got);
-    }
-    if (isLfsPointer(bytes)) {
-        throw Unusable(
-            warning::kMissingFile,
-            user + " names " + shown +
-                ", which is a Git LFS pointer; expected the file itself; git lfs pull fetches it");
-    }
-    file_bytes_ += size;
-    return bytes;
+    return {std::move(file), static_cast<uint64_t>(status.st_size), name};
 }
 
 // Visitors are told it, who need not know the server's folders.
@@ -142,26 +82,20 @@ std::string SceneFolder::shownPath(const fs::path& path) const {
                                    : path.filename().string();
 }
 
-Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
-    if (isDataUri(uri)) {
-        bytes_.take(uri.size(), user); // at most; the JSON text's limit bounds it
-        return bytesOfDataUri(uri, user);
-    }
-    const fs::path relative = relativePathFromUri(uri, user);
+OpenedFile SceneFolder::open(const fs::path& relative, const std::string& user) {
     files_.push_back({folder_ / relative, 0});
+    const std::string shown = "'" + printable(relative.string(), 300) + "'";
     std::error_code error;
     const fs::path target = fs::canonical(folder_ / relative, error);
     if (error) {
-        failToOpen(user + " cannot open '" + printable(relative.string(), 300) +
-                       "' in the scene's folder: ",
-                   error.value());
+        failToOpen(user + " cannot open " + shown + " in the scene's folder: ", error.value());
     }
     if (!isInside(target, folder_)) {
         throw Unusable(warning::kUri,
-                       user + " has the URI '" + printable(uri) +
-                           "', a link that leaves the scene's folder; expected a file inside it");
+                       user + " names " + shown +
+                           ", a link that leaves the scene's folder; expected a file inside it");
     }
-    return readFile(target, true, user);
+    return openFile(target, true, user);
 }
 
 } // namespace froxel::gltf

@@ -1,0 +1,31 @@
+// How whoever reads a scene gets at its files: from their folder, or from a process that has it.
+#pragma once
+
+#include "core/file_descriptor.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace froxel::gltf {
+
+struct OpenedFile {
+    FileDescriptor descriptor; // a regular file, for reading from its begin
+    uint64_t size_bytes = 0;
+    std::string shown; // its name as messages have it, printable
+};
+
+// Of one thread. All throw Failure: Unusable where there is no such file, or none that may be read.
+class FileOpener {
+  public:
+    virtual ~FileOpener() = default;
+
+    // The scene's file itself.
+    [[nodiscard]] virtual OpenedFile openScene() = 0;
+
+    // One beside it or below; `relative` is not trusted. `user` is who is named in the message.
+    [[nodiscard]] virtual OpenedFile open(const std::filesystem::path& relative,
+                                          const std::string& user) = 0;
+};
+
+} // namespace froxel::gltf
