@@ -112,7 +112,7 @@ std::string textOf(const Json& json) {
 
 void runInfo(const InfoOptions& options) try {
     if (!options.scenes.empty()) {
-        const Json rows = scenesReport(options.scenes);
+        const Json rows = scenesReport(options.scenes, options.sandbox);
         std::fputs((options.json ? textOf(rows) : sceneTable(rows)).c_str(), stdout);
         return;
     }
@@ -124,7 +124,7 @@ void runInfo(const InfoOptions& options) try {
     }
     gpu::Device device(options.device);
     if (!options.scene.empty()) {
-        const auto scene = loadScene(options.scene).value();
+        const auto scene = loadScene(options.scene, {}, workOn, readingBy(options.sandbox)).value();
         info["scene"] = sceneReport(scene);
         info["frame"] = drawOnce(device, scene);
     }

@@ -1,6 +1,7 @@
 // `froxel info`: the device, and what a scene holds and needs; or what each scene of a folder is.
 #pragma once
 
+#include "bake/reader_process.h"
 #include "gpu/device_options.h"
 
 #include <filesystem>
@@ -13,6 +14,7 @@ struct InfoOptions {
     std::string scene;                      // empty: the device only
     std::filesystem::path scenes;           // a folder of them, and nothing besides; empty: none
     std::filesystem::path environment_file; // empty: none is looked at
+    bake::Sandbox sandbox = bake::Sandbox::kOff;
     bool json = false;
 };
 

@@ -56,6 +56,7 @@ struct Run {
         return 0;
     }
     int operator()(const app::ProbeOptions& options) const { return app::runProbe(options); }
+    int operator()(const app::BakeOptions& options) const { return app::runBake(options); }
     int operator()(const app::SceneOptions& options) const {
         app::runScene(options);
         return 0;
@@ -77,6 +78,9 @@ int main(int argc, char** argv) {
     app::holdStandardStreams();
     try {
         const auto options = app::parseOptions(argc, argv, app::readEnvironment(environ));
+        if (const auto* bake = std::get_if<app::BakeOptions>(&options.command)) {
+            return app::runBake(*bake); // which has no thread that logs
+        }
         // Standard output is for results only: logs go to stderr.
         app::startLog(options.log_level, options.log_format);
         app::logConfiguration(options.configuration);

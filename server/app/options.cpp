@@ -49,6 +49,7 @@ struct Targets {
     InfoOptions info;
     SceneOptions scene;
     ProbeOptions probe;
+    BakeOptions bake;
     std::optional<LogLevel> log_level;
     LogFormat log_format = LogFormat::kText;
     const Environment* environment = nullptr; // for what may be configured by it
@@ -87,6 +88,12 @@ Result<std::filesystem::path> parseGlbPath(const std::string& text) {
 void addSceneOption(CommandBuilder& command, std::string& target, const std::string& shown) {
     command.text("--scene", "PATH|builtin", target, shown,
                  "glTF 2.0 or GLB file, or the built-in hall");
+}
+
+void addSandbox(CommandBuilder& command, bake::Sandbox& target) {
+    command.name("--sandbox", target, kSandboxNames,
+                 "Process that reads scene files. off: this one. best: another one, without the "
+                 "rights that the system can take from it. require: likewise, or none");
 }
 
 void addScenesFolder(CommandBuilder& command,
@@ -207,6 +214,7 @@ void addServe(CLI::App& app, Targets& targets) {
                     "Folder of glTF and GLB files that viewers may switch to. The server notices "
                     "changes, and reads the folder again on SIGHUP");
     addSceneChoices(command, options.choices);
+    addSandbox(command, options.sandbox);
     addEnvironmentFile(command, options.environment_file);
     command.cli().add_flag("--detail-levels", options.detail_levels,
                            "Make coarser levels of scenes while they load, for viewers who ask for "
@@ -250,6 +258,7 @@ void addRender(CLI::App& app, Targets& targets) {
     auto& settings = options.settings;
     addSceneOption(command, options.scene, options.scene);
     addSceneChoices(command, options.choices);
+    addSandbox(command, options.sandbox);
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
@@ -343,6 +352,7 @@ void addInfo(CLI::App& app, Targets& targets) {
     command.cli().add_option("FILE", options.scene, "Same as --scene; or a picture file");
     addScenesFolder(command, options.scenes,
                     "Print only a table of all glTF and GLB files in this folder");
+    addSandbox(command, options.sandbox);
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.cli().add_flag("--json", options.json, "Print JSON");
@@ -361,6 +371,24 @@ void addScene(CLI::App& app, Targets& targets) {
                 "How often each of the ten spheres is placed")
         ->needs(spheres);
     finish(command, options, LogLevel::kWarn, targets);
+}
+
+void addBake(CLI::App& app, Targets& targets) {
+    auto& options = targets.bake;
+    CommandBuilder command(app, "bake", "Read a scene for another froxel, with no rights");
+    command.cli().add_flag("--self-test", options.self_test,
+                           "Give up all rights, try to open a file, to connect and to execute, and "
+                           "say whether each failed");
+    command.cli()
+        .add_flag("--reader", options.reader, "Read what the starting process asks for")
+        ->group("");
+    finish(command, options, LogLevel::kWarn, targets);
+}
+
+void checkBake(const BakeOptions& options) {
+    if (!options.self_test && !options.reader) {
+        throw CLI::RequiredError("--self-test; other froxels start it with descriptors");
+    }
 }
 
 // What no single option can check.
@@ -462,6 +490,7 @@ Options parseOptions(int argc, const char* const* argv, const Environment& envir
     addLoad(app, targets);
     addInfo(app, targets);
     addScene(app, targets);
+    addBake(app, targets);
     CommandBuilder probe(app, "probe", "Ask a running server's health: exit code 0 or 1");
     addProbeArguments(probe, targets.probe);
     finish(probe, targets.probe, LogLevel::kWarn, targets);
@@ -469,11 +498,14 @@ Options parseOptions(int argc, const char* const* argv, const Environment& envir
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) {
             throw CLI::RequiredError(
-                "a subcommand (serve, render, bench, load, info, scene or probe)");
+                "a subcommand (serve, render, bench, load, info, scene, bake or probe)");
         }
         if (const auto* render = std::get_if<RenderOptions>(&targets.result.command)) {
             checkRender(*app.get_subcommand("render"), *render);
             checkGridCamera(*render);
+        }
+        if (const auto* bake = std::get_if<BakeOptions>(&targets.result.command)) {
+            checkBake(*bake);
         }
         if (const auto* bench = std::get_if<BenchOptions>(&targets.result.command)) {
             checkBench(*bench);

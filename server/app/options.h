@@ -1,6 +1,7 @@
 // The command line: every option, its unit, range and default.
 #pragma once
 
+#include "app/bake_command.h"
 #include "app/bench_command.h"
 #include "app/configuration.h"
 #include "app/info_command.h"
@@ -29,7 +30,8 @@ struct Options {
                  LoadOptions,
                  InfoOptions,
                  SceneOptions,
-                 ProbeOptions>
+                 ProbeOptions,
+                 BakeOptions>
         command;
     LogLevel log_level = LogLevel::kInfo;
     LogFormat log_format = LogFormat::kText;

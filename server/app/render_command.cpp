@@ -147,7 +147,8 @@ void runRender(const RenderOptions& options) try {
             requireFolderOf(*file);
         }
     }
-    auto scene = loadScene(options.scene, options.choices).value();
+    auto scene =
+        loadScene(options.scene, options.choices, workOn, readingBy(options.sandbox)).value();
     surround(scene, readSurroundings(options.environment_file));
     logWarnings(scene);
     gpu::Device device(options.device);

@@ -66,7 +66,7 @@ Result<stream::ReadScene> SceneMaker::make(const std::string& source,
                                            const SceneChoices& choices,
                                            const ProgressReport& report,
                                            const gltf::LoadLimits& limits) const {
-    auto loaded = loadScene(source, choices, report, limits);
+    auto loaded = loadScene(source, choices, report, {limits, {.sandbox = options_.sandbox}});
     if (!loaded) {
         return loaded.error();
     }

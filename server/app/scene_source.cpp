@@ -83,8 +83,9 @@ Result<void> chooseMaterialVariant(const std::string& wanted, scene::Scene& scen
 Result<scene::Scene> loadScene(const std::string& source,
                                const SceneChoices& choices,
                                const ProgressReport& report,
-                               const gltf::LoadLimits& limits) {
-    auto scene = source == kBuiltin ? makeHall(report) : gltf::load(source, report, limits);
+                               const SceneReading& reading) {
+    auto scene = source == kBuiltin ? makeHall(report)
+                                    : bake::load(source, reading.process, report, reading.limits);
     if (!scene) {
         return scene;
     }

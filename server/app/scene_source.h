@@ -3,13 +3,16 @@
 
 #include "app/memory_limits.h"
 #include "app/setting_options.h"
+#include "bake/reader_process.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "gltf/gltf_loader.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace froxel::app {
 
@@ -19,15 +22,27 @@ struct SceneChoices {
     std::string material_variant{}; // empty: none
 };
 
+// By the numbers of bake::Sandbox.
+inline constexpr std::array<std::string_view, 3> kSandboxNames = {"off", "best", "require"};
+
+// Who reads a scene's file, and what that may take.
+struct SceneReading {
+    gltf::LoadLimits limits{.memory_bytes = readMemoryBytes()};
+    bake::ReaderProcess process{};
+};
+
+[[nodiscard]] inline SceneReading readingBy(bake::Sandbox sandbox) {
+    return {.process = {.sandbox = sandbox}};
+}
+
 // `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. Cameras that
 // move stand where the animation begins. Errors with one line: kScene; kInvalidArgument where there
-// is no such animation or variant; kCancelled where `report` has it end. `limits`: of
-// reading a file.
+// is no such animation or variant; kCancelled where `report` has it end. `reading`: of
+// a file.
 [[nodiscard]] Result<scene::Scene> loadScene(const std::string& source,
                                              const SceneChoices& choices = {},
                                              const ProgressReport& report = workOn,
-                                             const gltf::LoadLimits& limits = {
-                                                 .memory_bytes = readMemoryBytes()});
+                                             const SceneReading& reading = {});
 
 // The settings of a view of it where nobody has asked for others: those given stay, the rest goes
 // by the scene (scene::lookFor()) and `look`, if there is one. The built-in scene begins with the

@@ -25,9 +25,9 @@ constexpr std::array<std::string_view, 10> kColumns = {
     "path",     "bytes",        "triangles",  "draws",    "materials",
     "textures", "device_bytes", "animations", "variants", "warnings"};
 
-Json rowOf(const catalogue::Offered& file) {
+Json rowOf(const catalogue::Offered& file, bake::Sandbox sandbox) {
     Json row{{"path", file.path}, {"bytes", file.bytes}};
-    const auto scene = loadScene(file.source);
+    const auto scene = loadScene(file.source, {}, workOn, readingBy(sandbox));
     if (!scene) {
         row["problem"] = scene.error().message;
         return row;
@@ -70,11 +70,11 @@ size_t widthOf(const std::string& text) {
 
 } // namespace
 
-Json scenesReport(const std::filesystem::path& folder) {
+Json scenesReport(const std::filesystem::path& folder, bake::Sandbox sandbox) {
     Json rows = Json::array();
     const auto listing = catalogue::Catalogue({}, folder).listing();
     for (const auto& file : listing->scenes()) {
-        rows.push_back(rowOf(file));
+        rows.push_back(rowOf(file, sandbox));
     }
     return rows;
 }

@@ -3,15 +3,8 @@
 #include "bake/delivered_check.h"
 #include "bake/scene_fields.h"
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
-#include <cstring>
-#include <memory>
-#include <optional>
 #include <string>
-#include <type_traits>
-#include <vector>
 
 namespace froxel::bake {
 
@@ -20,166 +13,10 @@ namespace {
 // At both ends, so that a run that is cut off or of another kind is told at once.
 constexpr uint64_t kMark = 0x31'74'61'6c'66'78'66'00; // "fxflat1"
 
-template <class T>
-inline constexpr bool kCopied = (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) ||
-                                std::is_same_v<T, std::byte> || kAnyBits<T>;
-
-class Writer {
-  public:
-    explicit Writer(const ByteSink& sink) : sink_(sink) {}
-
-    template <class T>
-    void put(const T& value) {
-        if constexpr (kCopied<T>) {
-            static_assert(std::is_trivially_copyable_v<T>);
-            copy(&value, sizeof(T));
-        } else if constexpr (std::is_same_v<T, bool>) {
-            put(static_cast<uint8_t>(value));
-        } else if constexpr (std::is_enum_v<T>) {
-            put(static_cast<uint8_t>(value));
-        } else {
-            static_assert(HasFields<T>);
-            std::apply([this](const auto&... field) { (put(field), ...); }, Fields<T>::of(value));
-        }
-    }
-    void put(const std::string& text) {
-        put(uint64_t{text.size()});
-        copy(text.data(), text.size());
-    }
-    template <class T>
-    void put(const std::vector<T>& values) {
-        put(uint64_t{values.size()});
-        if constexpr (kCopied<T>) {
-            copy(values.data(), values.size() * sizeof(T));
-        } else {
-            for (const T& value : values) {
-                put(value);
-            }
-        }
-    }
-    template <class T>
-    void put(const std::optional<T>& value) {
-        put(value.has_value());
-        if (value) {
-            put(*value);
-        }
-    }
-    void put(const std::shared_ptr<const scene::Motion>& motion) {
-        put(motion != nullptr);
-        if (motion) {
-            put(*motion);
-        }
-    }
-    void finish() { sink_(std::as_bytes(std::span(gathered_).first(gathered_count_))); }
-
-  private:
-    // Small pieces together, large ones as they are.
-    void copy(const void* data, size_t size) {
-        if (size > gathered_.size() - gathered_count_) {
-            sink_(std::as_bytes(std::span(gathered_).first(gathered_count_)));
-            gathered_count_ = 0;
-        }
-        if (size > gathered_.size()) {
-            sink_({static_cast<const std::byte*>(data), size});
-            return;
-        }
-        if (size > 0) {
-            std::memcpy(gathered_.data() + gathered_count_, data, size);
-            gathered_count_ += size;
-        }
-    }
-
-    const ByteSink& sink_;
-    std::array<std::byte, 1U << 16U> gathered_;
-    size_t gathered_count_ = 0;
-};
-
-class Broken : public std::exception {};
-
-// Each get() throws Broken.
-class Reader {
-  public:
-    explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
-
-    template <class T>
-    void get(T& value) {
-        if constexpr (kCopied<T>) {
-            copy(&value, sizeof(T));
-        } else if constexpr (std::is_same_v<T, bool>) {
-            value = upTo(0, 1) == 1;
-        } else if constexpr (std::is_enum_v<T>) {
-            value = static_cast<T>(upTo(static_cast<uint8_t>(Values<T>::kFirst),
-                                        static_cast<uint8_t>(Values<T>::kLast)));
-        } else {
-            static_assert(HasFields<T>);
-            std::apply([this](auto&... field) { (get(field), ...); }, Fields<T>::of(value));
-        }
-    }
-    void get(std::string& text) {
-        text.resize(count(1));
-        copy(text.data(), text.size());
-    }
-    template <class T>
-    void get(std::vector<T>& values) {
-        if constexpr (kCopied<T>) {
-            values.resize(count(sizeof(T)));
-            copy(values.data(), values.size() * sizeof(T));
-        } else {
-            // One at a time: each takes a byte at least, and memory only once it is there.
-            for (size_t left = count(1); left > 0; --left) {
-                get(values.emplace_back());
-            }
-        }
-    }
-    template <class T>
-    void get(std::optional<T>& value) {
-        if (upTo(0, 1) == 1) {
-            get(value.emplace());
-        }
-    }
-    void get(std::shared_ptr<const scene::Motion>& motion) {
-        if (upTo(0, 1) == 1) {
-            auto read = std::make_shared<scene::Motion>();
-            get(*read);
-            motion = std::move(read);
-        }
-    }
-    [[nodiscard]] bool atEnd() const { return rest_.empty(); }
-
-  private:
-    size_t count(size_t bytes_each) {
-        uint64_t number = 0;
-        get(number);
-        if (number > rest_.size() / bytes_each) {
-            throw Broken();
-        }
-        return number;
-    }
-    uint8_t upTo(uint8_t least, uint8_t most) {
-        uint8_t number = 0;
-        get(number);
-        if (number < least || number > most) {
-            throw Broken();
-        }
-        return number;
-    }
-    void copy(void* data, size_t size) {
-        if (size > rest_.size()) {
-            throw Broken();
-        }
-        if (size > 0) {
-            std::memcpy(data, rest_.data(), size);
-        }
-        rest_ = rest_.subspan(size);
-    }
-
-    std::span<const std::byte> rest_;
-};
-
 } // namespace
 
 void writeFlat(const scene::Scene& scene, const ByteSink& sink) {
-    Writer writer(sink);
+    FlatWriter writer(sink);
     writer.put(kMark);
     writer.put(scene);
     writer.put(kMark);
@@ -189,7 +26,7 @@ void writeFlat(const scene::Scene& scene, const ByteSink& sink) {
 Result<scene::Scene> readFlat(std::span<const std::byte> bytes) {
     scene::Scene scene;
     try {
-        Reader reader(bytes);
+        FlatReader reader(bytes);
         uint64_t begin = 0;
         uint64_t end = 0;
         reader.get(begin);

@@ -2,16 +2,14 @@
 // the same binary. Not a file format: it changes with the structs.
 #pragma once
 
+#include "bake/flat_bytes.h"
 #include "core/error.h"
 #include "scene/scene.h"
 
 #include <cstddef>
-#include <functional>
 #include <span>
 
 namespace froxel::bake {
-
-using ByteSink = std::function<void(std::span<const std::byte>)>;
 
 // All of it but its files. Passes on what `sink` throws.
 void writeFlat(const scene::Scene& scene, const ByteSink& sink);

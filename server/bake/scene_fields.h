@@ -1,30 +1,16 @@
 // The members of a scene's structs, in the order in which they are written, and which values their
-// enumerations have. A struct with a member more does not compile until it is listed.
+// enumerations have.
 #pragma once
 
+#include "bake/fields.h"
 #include "scene/motion.h"
 #include "scene/scene.h"
 
-#include <cstddef>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 
 namespace froxel::bake {
 
-// Fields<T>::of(value): references to all members of a struct, const as it is.
-template <class T>
-struct Fields;
-
-template <class T>
-concept HasFields = requires(T& value) {
-    Fields<T>::of(value);
-};
-
-// Structs of which any bits will do, without members that are left out: written as they lie in
-// memory, many at a time.
-template <class T>
-inline constexpr bool kAnyBits = false;
 template <>
 inline constexpr bool kAnyBits<scene::VariantMaterial> = true;
 template <>
@@ -38,21 +24,6 @@ inline constexpr bool kAnyBits<scene::MovedThing> = true;
     inline constexpr bool kAnyBits<io::type> = true;
 FROXEL_MATERIAL_FACTORS(FROXEL_FACTORS)
 #undef FROXEL_FACTORS
-template <int kLength, class Scalar>
-inline constexpr bool kAnyBits<glm::vec<kLength, Scalar>> = true;
-template <int kColumns, int kRows, class Scalar>
-inline constexpr bool kAnyBits<glm::mat<kColumns, kRows, Scalar>> = true;
-template <class Scalar>
-inline constexpr bool kAnyBits<glm::qua<Scalar>> = true;
-
-// The least and the greatest value of an enumeration without gaps.
-template <class Enum>
-struct Values;
-template <class Enum, Enum kLeast, Enum kGreatest>
-struct ValuesFrom {
-    static constexpr Enum kFirst = kLeast;
-    static constexpr Enum kLast = kGreatest;
-};
 template <>
 struct Values<scene::Wrap>
     : ValuesFrom<scene::Wrap, scene::Wrap::kRepeat, scene::Wrap::kClampToEdge> {};
@@ -80,37 +51,6 @@ template <>
 struct Values<settings::Projection> : ValuesFrom<settings::Projection,
                                                  settings::Projection::kPerspective,
                                                  settings::Projection::kOrthographic> {};
-
-namespace detail {
-
-struct Anything {
-    template <class T>
-    operator T() const; // NOLINT(google-explicit-constructor): stands for a member of any type
-};
-
-template <class T, class... Members>
-consteval size_t memberCount() {
-    if constexpr (requires { T{Members{}..., Anything{}}; }) {
-        return memberCount<T, Members..., Anything>();
-    } else {
-        return sizeof...(Members);
-    }
-}
-
-} // namespace detail
-
-#define FROXEL_FIELDS(type, left_out, ...)                                                         \
-    template <>                                                                                    \
-    struct Fields<type> {                                                                          \
-        template <class Value>                                                                     \
-        static auto of(Value& v) {                                                                 \
-            const auto all = std::tie(__VA_ARGS__);                                                \
-            static_assert(std::tuple_size_v<decltype(std::tie(__VA_ARGS__))> + (left_out) ==       \
-                              detail::memberCount<type>(),                                         \
-                          "every member is listed");                                               \
-            return all;                                                                            \
-        }                                                                                          \
-    };
 
 FROXEL_FIELDS(Bounds3, 0, v.min, v.max)
 FROXEL_FIELDS(BoundsD3, 0, v.min, v.max)
@@ -197,7 +137,6 @@ FROXEL_FIELDS(scene::Scene,
               v.motion,
               v.warnings,
               v.warnings_left_out)
-#undef FROXEL_FIELDS
 
 template <>
 struct Fields<scene::Material> {

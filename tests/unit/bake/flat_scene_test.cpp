@@ -4,6 +4,7 @@
 #include "scene/motion.h"
 #include "scene/scene_check.h"
 #include "support/places.h"
+#include "unit/bake/flat_form.h"
 
 #include <gtest/gtest.h>
 
@@ -18,14 +19,6 @@ namespace froxel::bake {
 namespace {
 
 using Bytes = std::vector<std::byte>;
-
-Bytes flat(const scene::Scene& scene) {
-    Bytes bytes;
-    writeFlat(scene, [&](std::span<const std::byte> part) {
-        bytes.insert(bytes.end(), part.begin(), part.end());
-    });
-    return bytes;
-}
 
 // A triangle with a texture and levels, a camera, lights, and something that moves.
 scene::Scene smallScene() {
