@@ -34,9 +34,9 @@ size_t geometryBytes(const scene::Scene& scene) {
 size_t textureBytes(const scene::Scene& scene) {
     size_t bytes = 0;
     for (const auto& image : scene.images) {
-        bytes += bytesOf(image.rgba8);
+        bytes += image.rgba8.size();
         for (const auto& level : image.mips) {
-            bytes += bytesOf(level);
+            bytes += level.size();
         }
     }
     return bytes;

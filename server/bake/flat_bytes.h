@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bake/fields.h"
+#include "core/kept_bytes.h"
 
 #include <array>
 #include <cstddef>
@@ -48,6 +49,10 @@ class FlatWriter {
     void put(const std::string& text) {
         put(uint64_t{text.size()});
         copy(text.data(), text.size());
+    }
+    void put(const KeptBytes& bytes) {
+        put(uint64_t{bytes.size()});
+        copy(bytes.data(), bytes.size());
     }
     template <class T>
     void put(const std::vector<T>& values) {
@@ -105,7 +110,9 @@ class Broken : public std::exception {};
 // say.
 class FlatReader {
   public:
-    explicit FlatReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+    // keeper: of the bytes, which large KeptBytes then share; null: they are copied.
+    explicit FlatReader(std::span<const std::byte> bytes, std::shared_ptr<const void> keeper = {})
+        : rest_(bytes), keeper_(std::move(keeper)) {}
 
     template <class T>
     void get(T& value) {
@@ -124,6 +131,17 @@ class FlatReader {
     void get(std::string& text) {
         text.resize(count(1));
         copy(text.data(), text.size());
+    }
+    void get(KeptBytes& bytes) {
+        constexpr size_t kWorthKeeping = 4096;
+        const size_t size = count(1);
+        if (keeper_ && size >= kWorthKeeping) {
+            bytes = KeptBytes(rest_.first(size), keeper_);
+            rest_ = rest_.subspan(size);
+            return;
+        }
+        bytes.resize(size);
+        copy(bytes.data(), size);
     }
     template <class T>
     void get(std::vector<T>& values) {
@@ -181,6 +199,7 @@ class FlatReader {
     }
 
     std::span<const std::byte> rest_;
+    std::shared_ptr<const void> keeper_;
 };
 
 } // namespace froxel::bake

@@ -23,10 +23,11 @@ void writeFlat(const scene::Scene& scene, const ByteSink& sink) {
     writer.finish();
 }
 
-Result<scene::Scene> readFlat(std::span<const std::byte> bytes) {
+Result<scene::Scene> readFlat(std::span<const std::byte> bytes,
+                              std::shared_ptr<const void> keeper) {
     scene::Scene scene;
     try {
-        FlatReader reader(bytes);
+        FlatReader reader(bytes, std::move(keeper));
         uint64_t begin = 0;
         uint64_t end = 0;
         reader.get(begin);

@@ -16,7 +16,9 @@ void writeFlat(const scene::Scene& scene, const ByteSink& sink);
 
 // Trusts nothing in the bytes: takes memory in proportion to them, and checks what whoever uses the
 // scene relies on (scene::findFault(), sizes of images, finite cameras, lights and bounds, numbers
-// of things and lengths of names). Errors: kScene, one line. Throws std::bad_alloc.
-[[nodiscard]] Result<scene::Scene> readFlat(std::span<const std::byte> bytes);
+// of things and lengths of names). keeper: of bytes that never change, which images then share.
+// Errors: kScene, one line. Throws std::bad_alloc.
+[[nodiscard]] Result<scene::Scene> readFlat(std::span<const std::byte> bytes,
+                                            std::shared_ptr<const void> keeper = {});
 
 } // namespace froxel::bake

@@ -159,14 +159,13 @@ Result<scene::Scene> readOutput(const FileDescriptor& output) {
     if (size == 0) {
         return readFlat({});
     }
-    void* const mapped =
-        mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, output.get(), 0);
+    void* const mapped = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, output.get(), 0);
     if (mapped == MAP_FAILED) {
         return systemError("cannot map what the reader wrote");
     }
-    auto scene = readFlat({static_cast<const std::byte*>(mapped), size});
-    munmap(mapped, size);
-    return scene;
+    const std::shared_ptr<const void> keeper(mapped,
+                                             [mapped, size](const void*) { munmap(mapped, size); });
+    return readFlat({static_cast<const std::byte*>(mapped), size}, keeper);
 }
 
 // One reader and what it asks for.

@@ -131,15 +131,17 @@ ImageSize ktx2Size(std::span<const std::byte> file, const std::string& user) {
 }
 
 void decodeKtx2(std::span<const std::byte> file, const std::string& user, scene::Image& image) {
-    std::vector<std::span<std::byte>> levels{image.rgba8};
-    levels.insert(levels.end(), image.mips.begin(), image.mips.end());
+    std::vector<std::span<std::byte>> levels{image.rgba8.own()};
+    for (KeptBytes& level : image.mips) {
+        levels.emplace_back(level.own());
+    }
     if (const auto read = ktx2::readPixels(file, levels); !read) {
         failKtx2(read.error(), user);
     }
 }
 
 void decodePng(std::span<const std::byte> file, const std::string& user, scene::Image& image) {
-    if (const auto read = png::readPixels(file, image.rgba8); !read) {
+    if (const auto read = png::readPixels(file, image.rgba8.own()); !read) {
         failBroken(user, "PNG", read.error().message);
     }
 }

@@ -111,7 +111,7 @@ glm::dvec4 MipChain::texel(size_t level, uint32_t x, uint32_t y) const {
 }
 
 MipChain::Level MipChain::given(size_t level) const {
-    const std::vector<std::byte>& rgba8 = image_.mips[level - 1];
+    const std::span<const std::byte> rgba8 = image_.mips[level - 1];
     Level out{std::max(image_.width_px >> level, 1U), std::max(image_.height_px >> level, 1U), {}};
     for (size_t i = 0; i < rgba8.size(); i += 4) {
         out.texels.emplace_back(decodeTexel(&rgba8[i], srgb_));

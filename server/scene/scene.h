@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/file_stamp.h"
+#include "core/kept_bytes.h"
 #include "core/math.h"
 #include "interface/material_factors.h"
 #include "interface/material_slots.h"
@@ -45,11 +46,11 @@ struct Image {
     std::string name;
     uint32_t width_px = 0;
     uint32_t height_px = 0;
-    std::vector<std::byte> rgba8; // [height][width][4], top row first; how it is encoded (sRGB or
-                                  // linear) depends on the slot that uses it
+    KeptBytes rgba8; // [height][width][4], top row first; how it is encoded (sRGB or linear)
+                     // depends on the slot that uses it
     // Levels 1 and on that a file gives, each half of the one before, rounded down, but at least 1;
     // what it does not give is made by halving.
-    std::vector<std::vector<std::byte>> mips{};
+    std::vector<KeptBytes> mips{};
 };
 
 struct Texture {

@@ -78,7 +78,7 @@ Picture drawPicture(render::ViewRenderer& view, render::FrameInputs inputs) {
     const auto& pixels = frame.pixels.view();
     Picture picture{radianceOf(pixels).rgb, {}};
     for (size_t i = 0; i < pixels.stride_bytes * pixels.height_px; ++i) {
-        picture.rgba8.push_back(std::to_integer<int>(pixels.data[i]));
+        picture.rgba8.own().push_back(std::to_integer<int>(pixels.data[i]));
     }
     return picture;
 }

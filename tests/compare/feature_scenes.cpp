@@ -61,7 +61,7 @@ addTexture(scene::Scene& scene, const ColorAt& colorAt, const scene::Sampler& sa
         for (uint32_t x = 0; x < kSide; ++x) {
             const vec4 color = colorAt((vec2(x, y) + 0.5F) / static_cast<float>(kSide));
             for (int c = 0; c < 4; ++c) {
-                image.rgba8.push_back(static_cast<std::byte>(std::lround(color[c] * 255)));
+                image.rgba8.own().push_back(static_cast<std::byte>(std::lround(color[c] * 255)));
             }
         }
     }

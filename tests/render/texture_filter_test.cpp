@@ -95,7 +95,11 @@ scene::Image levelsByColour() {
     for (uint32_t level = 0; level < kLevels; ++level) {
         const size_t side = kSide >> level;
         std::vector bytes(4 * side * side, static_cast<std::byte>(kLevelStep * level));
-        level == 0 ? std::swap(image.rgba8, bytes) : image.mips.push_back(std::move(bytes));
+        if (level == 0) {
+            image.rgba8 = std::move(bytes);
+        } else {
+            image.mips.emplace_back(std::move(bytes));
+        }
     }
     return image;
 }
@@ -104,7 +108,7 @@ scene::Image noise() {
     std::mt19937 random(7);
     scene::Image image{"noise", kSide, kSide, {}};
     for (size_t i = 0; i < size_t{4} * kSide * kSide; ++i) {
-        image.rgba8.push_back(static_cast<std::byte>(random() % 256));
+        image.rgba8.own().push_back(static_cast<std::byte>(random() % 256));
     }
     return image;
 }

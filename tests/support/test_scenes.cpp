@@ -30,7 +30,7 @@ scene::Image image(const char* name, F f) {
     for (int y = 0; y < 32; ++y) {
         for (int x = 0; x < 32; ++x) {
             for (const int channel : f(x, y)) {
-                out.rgba8.push_back(static_cast<std::byte>(channel));
+                out.rgba8.own().push_back(static_cast<std::byte>(channel));
             }
         }
     }

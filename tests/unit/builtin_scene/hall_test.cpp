@@ -17,8 +17,9 @@ const scene::Scene& theHall() {
 // FNV-1a over the bytes of plain values.
 class Digest {
   public:
-    template <class T>
-    void add(const std::vector<T>& values) {
+    template <std::ranges::contiguous_range Values>
+    void add(const Values& values) {
+        using T = std::ranges::range_value_t<Values>;
         static_assert(std::is_trivially_copyable_v<T>);
         addBytes(values.data(), values.size() * sizeof(T));
     }
@@ -41,7 +42,7 @@ class Digest {
 uint64_t digestOf(const scene::Scene& scene) {
     Digest digest;
     for (const scene::Image& image : scene.images) {
-        digest.add(image.rgba8);
+        digest.add(image.rgba8.span());
     }
     for (const scene::Mesh& mesh : scene.meshes) {
         for (const scene::Primitive& primitive : mesh.primitives) {

@@ -92,7 +92,7 @@ TEST(Images, FileInASubfolder_IsRead) {
     file.json["images"][0]["uri"] = "my%20textures/a.png";
     const scene::Scene scene = loaded(file.loadIn(folder));
     ASSERT_EQ(scene.images.size(), 1U);
-    EXPECT_EQ(scene.images[0].rgba8.at(2), std::byte{3});
+    EXPECT_EQ(scene.images[0].rgba8[2], std::byte{3});
 }
 
 TEST(Images, DataUri_IsRead) {
@@ -203,7 +203,7 @@ TEST(Images, WrongMimeType_IsReadAsItIs) {
     SceneFile file = withImage(plainPng(1, 2, 3));
     file.json["images"][0]["mimeType"] = "image/jpeg";
     const scene::Scene scene = loaded(file.load());
-    EXPECT_EQ(scene.images.at(0).rgba8.at(2), std::byte{3});
+    EXPECT_EQ(scene.images.at(0).rgba8[2], std::byte{3});
     EXPECT_THAT(test::warningLines(scene),
                 ElementsAre(HasSubstr("IMAGE_MIME_TYPE_INVALID at /images/0/mimeType")));
     EXPECT_EQ(scene.warnings.at(0).severity, scene::Severity::kInformation);
@@ -265,7 +265,7 @@ TEST(Images, Ktx2_HasItsPixelsAndItsMips) {
     EXPECT_EQ(image.rgba8[0], std::byte{255});
     ASSERT_EQ(image.mips.size(), 3U);
     EXPECT_EQ(image.mips[0].size(), 64U);
-    EXPECT_EQ(image.mips[0].at(1), std::byte{255});
+    EXPECT_EQ(image.mips[0][1], std::byte{255});
     EXPECT_EQ(image.mips[2], froxel::test::bytesOf({90, 90, 90, 128}));
     EXPECT_THAT(scene.warnings, testing::IsEmpty()) << "told by its first bytes alone";
 }
@@ -293,7 +293,7 @@ TEST(Images, BrokenKtx2_LeavesItsPlaceToTheFallback) {
     Bytes ktx2 = froxel::test::ktx2File(froxel::test::uastcLevels());
     ktx2.resize(ktx2.size() - 1);
     const scene::Scene scene = loaded(withBasisAndPng(ktx2).load());
-    EXPECT_EQ(scene.images.at(0).rgba8.at(2), std::byte{3});
+    EXPECT_EQ(scene.images.at(0).rgba8[2], std::byte{3});
     EXPECT_TRUE(scene.images.at(0).mips.empty());
     EXPECT_NE(scene.materials.at(0).emissive_texture.texture, scene::kNone);
     EXPECT_THAT(test::warningLines(scene),
@@ -309,7 +309,7 @@ TEST(Images, Ktx2WithBrokenTexels_LeavesItsPlaceToTheFallback) {
     std::memcpy(&books_at, &ktx2.at(froxel::test::kKtx2GlobalDataAt), sizeof books_at);
     std::fill_n(&ktx2.at(books_at), 60, std::byte{0xFF});
     const scene::Scene scene = loaded(withBasisAndPng(ktx2).load());
-    EXPECT_EQ(scene.images.at(0).rgba8.at(2), std::byte{3});
+    EXPECT_EQ(scene.images.at(0).rgba8[2], std::byte{3});
     EXPECT_THAT(test::warningLines(scene),
                 ElementsAre(HasSubstr("image 1 is a broken KTX2 file: ")));
 }

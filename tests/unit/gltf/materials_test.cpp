@@ -336,7 +336,7 @@ TEST(Materials, AllFiveTextures_AreRead) {
     EXPECT_EQ(material.emissive_texture.texture, 1U);
     ASSERT_EQ(scene.images.size(), 2U);
     EXPECT_EQ(scene.images[1].name, "image1");
-    EXPECT_EQ(scene.images[1].rgba8.at(0), std::byte{11});
+    EXPECT_EQ(scene.images[1].rgba8[0], std::byte{11});
     EXPECT_EQ(scene.textures.at(0).sampler, scene::kNone);
 }
 

@@ -72,9 +72,9 @@ Glb written(const scene::Scene& scene, const std::string& name) {
 scene::Image twoByTwo(const char* name, uint8_t alpha) {
     scene::Image image{name, 2, 2, {}};
     for (const int value : {255, 0, 0, 0, 255, 0, 0, 0, 255, 9, 8, 7}) {
-        image.rgba8.push_back(static_cast<std::byte>(value));
+        image.rgba8.own().push_back(static_cast<std::byte>(value));
         if (image.rgba8.size() % 4 == 3) {
-            image.rgba8.push_back(static_cast<std::byte>(alpha));
+            image.rgba8.own().push_back(static_cast<std::byte>(alpha));
         }
     }
     return image;
@@ -349,7 +349,7 @@ TEST(GlbWriter, ShearedInstance_IsRefusedByName) {
 
 TEST(GlbWriter, ImageOfTheWrongSize_IsRefusedByName) {
     scene::Scene scene = everything();
-    scene.images[1].rgba8.pop_back();
+    scene.images[1].rgba8.own().pop_back();
     const auto result = writeGlb(scene, fileNamed("wrong_size.glb"));
     ASSERT_TRUE(result.has_error());
     EXPECT_THAT(result.error().message, HasSubstr("'veiled' has 15 bytes"));

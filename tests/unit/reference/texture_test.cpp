@@ -18,7 +18,7 @@ scene::Image image(uint32_t width, uint32_t height, F f) {
     for (uint32_t y = 0; y < height; ++y) {
         for (uint32_t x = 0; x < width; ++x) {
             for (const uint32_t value : {static_cast<uint32_t>(f(x, y)), 0U, 0U, 255U}) {
-                out.rgba8.push_back(static_cast<std::byte>(value));
+                out.rgba8.own().push_back(static_cast<std::byte>(value));
             }
         }
     }
