@@ -8,6 +8,7 @@
 #include "app/scene_source.h"
 #include "app/scene_table.h"
 #include "app/serve_command.h"
+#include "bake/isolation.h"
 #include "core/text.h"
 #include "gltf/image_decode.h"
 #include "gpu/device.h"
@@ -133,6 +134,8 @@ void runInfo(const InfoOptions& options) try {
     }
     info["device"] = report::toJson(report::summarize(device.traits()));
     info["limits"] = limitsOf(device);
+    const bake::Isolation isolation = bake::isolationHere();
+    info["scene_readers"] = {{"landlock", isolation.landlock}, {"seccomp", isolation.seccomp}};
     info["service"] = serviceReport();
     const std::string text = options.json ? textOf(info) : toText(info);
     std::fputs(text.c_str(), stdout);

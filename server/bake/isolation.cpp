@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <fcntl.h>
 #include <linux/landlock.h>
+#include <linux/seccomp.h>
 #include <memory>
 #include <sched.h>
 #include <seccomp.h>
@@ -28,6 +29,15 @@ constexpr bool kSanitized = false;
 void limit(__rlimit_resource resource, uint64_t amount) {
     const rlimit both{amount, amount};
     setrlimit(resource, &both);
+}
+
+// Where memory runs out, this process goes before the one that serves.
+void yieldMemory() {
+    const int score = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+    if (score >= 0) {
+        (void)!write(score, "1000", 4);
+        close(score);
+    }
 }
 
 void limitResources(const ResourceLimits& limits) {
@@ -57,10 +67,14 @@ uint64_t deniedAccess(long version) {
     return access;
 }
 
+// Below 1: there is none.
+long landlockVersion() {
+    return syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+}
+
 // A set of rules without any rule denies all that it handles.
 bool denyFiles() {
-    const long version =
-        syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+    const long version = landlockVersion();
     if (version < 1) {
         return false;
     }
@@ -132,10 +146,20 @@ bool filterCalls() {
 
 } // namespace
 
+Isolation isolationHere() {
+    if (kSanitized) {
+        return {};
+    }
+    const uint32_t kill = SECCOMP_RET_KILL_PROCESS;
+    return {.landlock = landlockVersion() >= 1,
+            .seccomp = syscall(SYS_seccomp, SECCOMP_GET_ACTION_AVAIL, 0, &kill) == 0};
+}
+
 Isolation isolate(const ResourceLimits& limits) {
     if (kSanitized) {
         return {};
     }
+    yieldMemory();
     limitResources(limits);
     Isolation isolation;
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0) {

@@ -21,6 +21,9 @@ struct ResourceLimits {
     uint32_t cpu_s = 0;         // of all threads together; 0: no limit
 };
 
+// What isolate() would give up here.
+[[nodiscard]] Isolation isolationHere();
+
 // Of the calling process, for good, before it has threads. Open descriptors stay usable. Gives up
 // what it can; a build with a sanitizer, which needs more, gives up nothing.
 [[nodiscard]] Isolation isolate(const ResourceLimits& limits);
