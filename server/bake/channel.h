@@ -33,6 +33,7 @@ struct Message {
     double fraction = 0;   // of a stage
     bool landlock = false; // of kIsolated
     bool seccomp = false;
+    uint64_t pool_bytes = 0; // of kScene: where the output has the scene, behind its images
 };
 
 template <>
@@ -41,7 +42,7 @@ template <>
 struct Values<Say> : ValuesFrom<Say, Say::kIsolated, Say::kError> {};
 FROXEL_FIELDS(Task, 0, v.file, v.memory_bytes, v.cpu_s)
 FROXEL_FIELDS(FileAnswer, 0, v.answer, v.text, v.size_bytes)
-FROXEL_FIELDS(Message, 0, v.say, v.text, v.user, v.fraction, v.landlock, v.seccomp)
+FROXEL_FIELDS(Message, 0, v.say, v.text, v.user, v.fraction, v.landlock, v.seccomp, v.pool_bytes)
 
 // One end of a pair of sockets that keep packets apart. Of one thread.
 class Channel {

@@ -30,7 +30,9 @@ inline constexpr bool kCopied = (std::is_arithmetic_v<T> && !std::is_same_v<T, b
 
 class FlatWriter {
   public:
-    explicit FlatWriter(const ByteSink& sink) : sink_(sink) {}
+    // pool: bytes that whoever reads has before him; KeptBytes there are told by their place alone.
+    explicit FlatWriter(const ByteSink& sink, std::span<const std::byte> pool = {})
+        : sink_(sink), pool_(pool) {}
 
     template <class T>
     void put(const T& value) {
@@ -51,8 +53,16 @@ class FlatWriter {
         copy(text.data(), text.size());
     }
     void put(const KeptBytes& bytes) {
+        const std::byte* const first = bytes.span().data();
+        const bool pooled = std::less_equal<>()(pool_.data(), first) &&
+                            std::less<>()(first, pool_.data() + pool_.size());
+        put(pooled);
         put(uint64_t{bytes.size()});
-        copy(bytes.data(), bytes.size());
+        if (pooled) {
+            put(static_cast<uint64_t>(first - pool_.data()));
+        } else {
+            copy(first, bytes.size());
+        }
     }
     template <class T>
     void put(const std::vector<T>& values) {
@@ -99,6 +109,7 @@ class FlatWriter {
     }
 
     const ByteSink& sink_;
+    std::span<const std::byte> pool_;
     std::array<std::byte, 1U << 16U> gathered_;
     size_t gathered_count_ = 0;
 };
@@ -110,9 +121,11 @@ class Broken : public std::exception {};
 // say.
 class FlatReader {
   public:
-    // keeper: of the bytes, which large KeptBytes then share; null: they are copied.
-    explicit FlatReader(std::span<const std::byte> bytes, std::shared_ptr<const void> keeper = {})
-        : rest_(bytes), keeper_(std::move(keeper)) {}
+    // pool: as FlatWriter has it, with `keeper` of it.
+    explicit FlatReader(std::span<const std::byte> bytes,
+                        std::span<const std::byte> pool = {},
+                        std::shared_ptr<const void> keeper = {})
+        : rest_(bytes), pool_(pool), keeper_(std::move(keeper)) {}
 
     template <class T>
     void get(T& value) {
@@ -133,15 +146,19 @@ class FlatReader {
         copy(text.data(), text.size());
     }
     void get(KeptBytes& bytes) {
-        constexpr size_t kWorthKeeping = 4096;
-        const size_t size = count(1);
-        if (keeper_ && size >= kWorthKeeping) {
-            bytes = KeptBytes(rest_.first(size), keeper_);
-            rest_ = rest_.subspan(size);
+        if (upTo(0, 1) == 0) {
+            bytes.resize(count(1));
+            copy(bytes.data(), bytes.size());
             return;
         }
-        bytes.resize(size);
-        copy(bytes.data(), size);
+        uint64_t size = 0;
+        uint64_t offset = 0;
+        get(size);
+        get(offset);
+        if (offset > pool_.size() || size > pool_.size() - offset) {
+            throw Broken();
+        }
+        bytes = KeptBytes(pool_.subspan(offset, size), keeper_);
     }
     template <class T>
     void get(std::vector<T>& values) {
@@ -199,6 +216,7 @@ class FlatReader {
     }
 
     std::span<const std::byte> rest_;
+    std::span<const std::byte> pool_;
     std::shared_ptr<const void> keeper_;
 };
 

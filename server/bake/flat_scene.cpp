@@ -15,8 +15,8 @@ constexpr uint64_t kMark = 0x31'74'61'6c'66'78'66'00; // "fxflat1"
 
 } // namespace
 
-void writeFlat(const scene::Scene& scene, const ByteSink& sink) {
-    FlatWriter writer(sink);
+void writeFlat(const scene::Scene& scene, const ByteSink& sink, std::span<const std::byte> pool) {
+    FlatWriter writer(sink, pool);
     writer.put(kMark);
     writer.put(scene);
     writer.put(kMark);
@@ -24,10 +24,11 @@ void writeFlat(const scene::Scene& scene, const ByteSink& sink) {
 }
 
 Result<scene::Scene> readFlat(std::span<const std::byte> bytes,
+                              std::span<const std::byte> pool,
                               std::shared_ptr<const void> keeper) {
     scene::Scene scene;
     try {
-        FlatReader reader(bytes, std::move(keeper));
+        FlatReader reader(bytes, pool, std::move(keeper));
         uint64_t begin = 0;
         uint64_t end = 0;
         reader.get(begin);

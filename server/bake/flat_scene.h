@@ -11,14 +11,18 @@
 
 namespace froxel::bake {
 
-// All of it but its files. Passes on what `sink` throws.
-void writeFlat(const scene::Scene& scene, const ByteSink& sink);
+// All of it but its files, and of images in the pool (FlatWriter) but their places. Passes on what
+// `sink` throws.
+void writeFlat(const scene::Scene& scene,
+               const ByteSink& sink,
+               std::span<const std::byte> pool = {});
 
 // Trusts nothing in the bytes: takes memory in proportion to them, and checks what whoever uses the
 // scene relies on (scene::findFault(), sizes of images, finite cameras, lights and bounds, numbers
-// of things and lengths of names). keeper: of bytes that never change, which images then share.
-// Errors: kScene, one line. Throws std::bad_alloc.
+// of things and lengths of names). pool: never changes
+// while `keeper` lives; images share it. Errors: kScene, one line. Throws std::bad_alloc.
 [[nodiscard]] Result<scene::Scene> readFlat(std::span<const std::byte> bytes,
+                                            std::span<const std::byte> pool = {},
                                             std::shared_ptr<const void> keeper = {});
 
 } // namespace froxel::bake

@@ -96,6 +96,7 @@ using Filter = std::unique_ptr<void, Release>;
 
 constexpr std::array kAllowed = {
     SCMP_SYS(read),           SCMP_SYS(pread64),       SCMP_SYS(write),
+    SCMP_SYS(pwrite64),       SCMP_SYS(ftruncate),
 
     SCMP_SYS(writev),         SCMP_SYS(close),         SCMP_SYS(munmap),
     SCMP_SYS(mremap),         SCMP_SYS(madvise),       SCMP_SYS(brk),

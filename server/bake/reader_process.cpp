@@ -148,7 +148,7 @@ Error systemError(const std::string& what) {
 }
 
 // Memory that nobody writes any more.
-Result<scene::Scene> readOutput(const FileDescriptor& output) {
+Result<scene::Scene> readOutput(const FileDescriptor& output, uint64_t pool_bytes) {
     struct stat status {};
     if (fcntl(output.get(), F_ADD_SEALS,
               F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE) != 0 ||
@@ -156,7 +156,7 @@ Result<scene::Scene> readOutput(const FileDescriptor& output) {
         return systemError("cannot seal what the reader wrote");
     }
     const auto size = static_cast<size_t>(status.st_size);
-    if (size == 0) {
+    if (size == 0 || pool_bytes > size) {
         return readFlat({});
     }
     void* const mapped = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, output.get(), 0);
@@ -165,7 +165,8 @@ Result<scene::Scene> readOutput(const FileDescriptor& output) {
     }
     const std::shared_ptr<const void> keeper(mapped,
                                              [mapped, size](const void*) { munmap(mapped, size); });
-    return readFlat({static_cast<const std::byte*>(mapped), size}, keeper);
+    const std::span all(static_cast<const std::byte*>(mapped), size);
+    return readFlat(all.subspan(pool_bytes), all.first(pool_bytes), keeper);
 }
 
 // One reader and what it asks for.
@@ -180,8 +181,8 @@ class Reading {
         : file_(file), process_(process), report_(report), folder_(folder),
           channel_(std::move(channel)), child_(child) {}
 
-    // Until the reader says that the scene is there.
-    Result<void> run(const gltf::LoadLimits& limits) {
+    // Until the reader says that the scene is there: how many bytes of images lie before it.
+    Result<uint64_t> run(const gltf::LoadLimits& limits) {
         if (!channel_.send(Task{file_.filename().string(), limits.memory_bytes, process_.cpu_s})) {
             return ended();
         }
@@ -194,10 +195,11 @@ class Reading {
             if (message && isolated_ &&
                 (message->say == Say::kScene || message->say == Say::kError)) {
                 child_.end(SIGKILL); // nothing more is expected of it
-                return message->say == Say::kScene ? Result<void>() : fault(message->text);
+                return message->say == Say::kScene ? Result<uint64_t>(message->pool_bytes)
+                                                   : fault(message->text);
             }
             if (auto answered = message ? answer(*message) : Result<void>(); !answered) {
-                return answered;
+                return answered.error();
             }
             if (!report_(now_)) {
                 return Error{ErrorCode::kCancelled,
@@ -310,10 +312,11 @@ Result<scene::Scene> loadApart(const fs::path& file,
     }
     theirs = FileDescriptor();
     Reading reading(file, process, report, folder, std::move(ours), child);
-    if (const auto read = reading.run(limits); !read) {
-        return read.error();
+    const auto pool_bytes = reading.run(limits);
+    if (!pool_bytes) {
+        return pool_bytes.error();
     }
-    auto scene = readOutput(output);
+    auto scene = readOutput(output, *pool_bytes);
     if (scene) {
         scene->files = folder.takeFiles();
     } else {

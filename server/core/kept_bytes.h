@@ -11,7 +11,7 @@
 namespace froxel {
 
 // As a std::vector<std::byte>, but that copies of what is kept elsewhere share it. To change it
-// makes it one's own. As thread-safe as a vector.
+// makes it one's own, unless it was given to be filled. As thread-safe as a vector.
 class KeptBytes {
   public:
     KeptBytes() = default;
@@ -21,6 +21,10 @@ class KeptBytes {
     // `bytes` stay as they are for as long as `keeper` lives.
     KeptBytes(std::span<const std::byte> bytes, std::shared_ptr<const void> keeper)
         : elsewhere_(bytes), keeper_(std::move(keeper)) {}
+
+    // Likewise, but that whoever has it may fill them.
+    KeptBytes(std::span<std::byte> room, std::shared_ptr<const void> keeper)
+        : elsewhere_(room), room_(room.data()), keeper_(std::move(keeper)) {}
 
     [[nodiscard]] std::span<const std::byte> span() const {
         return keeper_ ? elsewhere_ : std::span<const std::byte>(own_);
@@ -38,14 +42,18 @@ class KeptBytes {
     [[nodiscard]] std::vector<std::byte>& own() {
         if (keeper_) {
             own_.assign(elsewhere_.begin(), elsewhere_.end());
+            room_ = nullptr;
             keeper_.reset();
         }
         return own_;
     }
-    [[nodiscard]] std::byte* data() { return own().data(); }
-    [[nodiscard]] std::byte& operator[](size_t i) { return own()[i]; }
-    [[nodiscard]] auto begin() { return own().begin(); }
-    [[nodiscard]] auto end() { return own().end(); }
+    [[nodiscard]] std::span<std::byte> writable() {
+        return room_ != nullptr ? std::span(room_, elsewhere_.size()) : std::span(own());
+    }
+    [[nodiscard]] std::byte* data() { return writable().data(); }
+    [[nodiscard]] std::byte& operator[](size_t i) { return writable()[i]; }
+    [[nodiscard]] auto begin() { return writable().begin(); }
+    [[nodiscard]] auto end() { return writable().end(); }
     void resize(size_t size) { own().resize(size); }
     void assign(size_t size, std::byte value) { own().assign(size, value); }
     void clear() { own().clear(); }
@@ -59,6 +67,7 @@ class KeptBytes {
   private:
     std::vector<std::byte> own_;
     std::span<const std::byte> elsewhere_;
+    std::byte* room_ = nullptr;          // elsewhere_, where it may be filled
     std::shared_ptr<const void> keeper_; // of elsewhere_; null: own_
 };
 

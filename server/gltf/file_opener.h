@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/file_descriptor.h"
+#include "core/kept_bytes.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -26,6 +27,9 @@ class FileOpener {
     // One beside it or below; `relative` is not trusted. `user` is who is named in the message.
     [[nodiscard]] virtual OpenedFile open(const std::filesystem::path& relative,
                                           const std::string& user) = 0;
+
+    // For the pixels of an image, which are wanted where the opener is. Any thread.
+    [[nodiscard]] virtual KeptBytes pixelRoom(size_t size_bytes) { return KeptBytes(size_bytes); }
 };
 
 } // namespace froxel::gltf

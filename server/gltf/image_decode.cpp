@@ -131,9 +131,9 @@ ImageSize ktx2Size(std::span<const std::byte> file, const std::string& user) {
 }
 
 void decodeKtx2(std::span<const std::byte> file, const std::string& user, scene::Image& image) {
-    std::vector<std::span<std::byte>> levels{image.rgba8.own()};
+    std::vector<std::span<std::byte>> levels{image.rgba8.writable()};
     for (KeptBytes& level : image.mips) {
-        levels.emplace_back(level.own());
+        levels.emplace_back(level.writable());
     }
     if (const auto read = ktx2::readPixels(file, levels); !read) {
         failKtx2(read.error(), user);
@@ -141,7 +141,7 @@ void decodeKtx2(std::span<const std::byte> file, const std::string& user, scene:
 }
 
 void decodePng(std::span<const std::byte> file, const std::string& user, scene::Image& image) {
-    if (const auto read = png::readPixels(file, image.rgba8.own()); !read) {
+    if (const auto read = png::readPixels(file, image.rgba8.writable()); !read) {
         failBroken(user, "PNG", read.error().message);
     }
 }
@@ -181,15 +181,17 @@ ImageSize imageSize(std::span<const std::byte> file, const std::string& user) {
     return size;
 }
 
-std::string
-decodeImage(std::span<const std::byte> file, const std::string& user, scene::Image& image) {
+std::string decodeImage(std::span<const std::byte> file,
+                        const std::string& user,
+                        scene::Image& image,
+                        const PixelRoom& room) {
     const ImageSize size = imageSize(file, user);
     image.width_px = size.width_px;
     image.height_px = size.height_px;
-    image.rgba8.resize(size.levelBytes(0));
+    image.rgba8 = room(size.levelBytes(0));
     image.mips.resize(size.level_count - 1);
     for (uint32_t level = 1; level < size.level_count; ++level) {
-        image.mips[level - 1].resize(size.levelBytes(level));
+        image.mips[level - 1] = room(size.levelBytes(level));
     }
     if (isJpeg(file)) {
         return decodeJpeg(file, user, image);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,10 +39,15 @@ struct ImageSize {
 // a broken one, Failure for sides above kMaxImageSide_px.
 [[nodiscard]] ImageSize imageSize(std::span<const std::byte> file, const std::string& user);
 
+// Where pixels go, by their bytes. Any thread.
+using PixelRoom = std::function<KeptBytes(size_t)>;
+
 // Fills width, height, pixels and mips of `image`: grey and palette become RGB, no alpha becomes
 // 255, 16 bits become 8. Returns a warning or "". Throws Unusable, naming `user`, where the data is
 // broken. Any thread.
-std::string
-decodeImage(std::span<const std::byte> file, const std::string& user, scene::Image& image);
+std::string decodeImage(std::span<const std::byte> file,
+                        const std::string& user,
+                        scene::Image& image,
+                        const PixelRoom& room);
 
 } // namespace froxel::gltf

@@ -81,9 +81,9 @@ void begin(Job& job,
     }
 }
 
-void decode(Job& job) noexcept {
+void decode(Job& job, const PixelRoom& room) noexcept {
     try {
-        job.warning = decodeImage(job.file, job.user, *job.image);
+        job.warning = decodeImage(job.file, job.user, *job.image, room);
     } catch (const Unusable& unusable) {
         job.unusable = unusable;
     } catch (...) {
@@ -93,7 +93,7 @@ void decode(Job& job) noexcept {
 }
 
 // Where it is called off what others have begun is done first.
-void decodeAll(const std::vector<Job*>& jobs, LoadProgress& progress) {
+void decodeAll(const std::vector<Job*>& jobs, const PixelRoom& room, LoadProgress& progress) {
     std::atomic<size_t> next{0};
     std::atomic<size_t> done{0};
     const auto decodeNext = [&] {
@@ -102,7 +102,7 @@ void decodeAll(const std::vector<Job*>& jobs, LoadProgress& progress) {
             return false;
         }
         if (!jobs[i]->unusable) {
-            decode(*jobs[i]);
+            decode(*jobs[i], room);
         }
         ++done;
         return true;
@@ -191,7 +191,8 @@ void loadImages(const Document& document,
         for (Job* job : due) {
             begin(*job, document, files, views, pixels, warnings);
         }
-        decodeAll(due, progress);
+        decodeAll(
+            due, [&files](size_t bytes) { return files.pixelRoom(bytes); }, progress);
         std::vector<Job*> again;
         std::copy_if(due.begin(), due.end(), std::back_inserter(again),
                      [&](Job* job) { return goesOn(*job, warnings); });

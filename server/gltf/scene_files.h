@@ -25,6 +25,9 @@ class SceneFiles {
     // `data:` URI cannot be decoded.
     [[nodiscard]] Bytes read(const std::string& uri, const std::string& user);
 
+    // As FileOpener has it.
+    [[nodiscard]] KeptBytes pixelRoom(size_t size_bytes) { return opener_.pixelRoom(size_bytes); }
+
     // Of all files that were read.
     [[nodiscard]] uint64_t fileBytes() const { return file_bytes_; }
 

@@ -57,6 +57,28 @@ TEST(FlatScene, RealFiles_ReturnAsTheyWere) {
     EXPECT_GT(count, 20U);
 }
 
+// Images that both sides see are told by their place, which must be within what both see.
+TEST(FlatScene, ImagesInAPool_AreSharedAndStayInIt) {
+    const auto pool = std::make_shared<Bytes>(64, std::byte{9});
+    scene::Scene scene = smallScene();
+    scene.images[0].rgba8 = KeptBytes(std::span(*pool).subspan(40, 8), pool);
+    Bytes bytes;
+    const auto sink = [&](std::span<const std::byte> part) {
+        bytes.insert(bytes.end(), part.begin(), part.end());
+    };
+    writeFlat(scene, sink, *pool);
+    const auto read = readFlat(bytes, *pool, pool);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->images[0].rgba8.span().data(), pool->data() + 40);
+    EXPECT_EQ(pool.use_count(), 3);
+    for (const size_t size : {0U, 8U, 47U}) {
+        EXPECT_FALSE(readFlat(bytes, std::span(*pool).first(size), pool)) << size;
+    }
+    scene::Scene changed = *read;
+    changed.images[0].rgba8[0] = std::byte{1}; // becomes its own
+    EXPECT_EQ((*pool)[40], std::byte{9});
+}
+
 TEST(FlatScene, CutAnywhere_IsRefused) {
     const Bytes bytes = flat(smallScene());
     for (size_t size = 0; size < bytes.size(); ++size) {

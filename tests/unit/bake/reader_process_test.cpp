@@ -48,8 +48,8 @@ class ReaderProcessTest : public ::testing::Test {
         std::ofstream(process_.binary) << R"(#!/usr/bin/env -S python3 -S
 import os, signal, socket, struct, time
 channel = socket.socket(fileno=3)
-def say(kind, text=b"", isolated=1):
-    channel.send(struct.pack("<BQ", kind, len(text)) + text + struct.pack("<QdBB", 0, 0, isolated, isolated))
+def say(kind, text=b"", isolated=1, pool=0):
+    channel.send(struct.pack("<BQ", kind, len(text)) + text + struct.pack("<QdBBQ", 0, 0, isolated, isolated, pool))
 def answer():
     data, rights, _, _ = channel.recvmsg(65536, 1024)
     return data, rights
@@ -129,6 +129,8 @@ TEST_F(ReaderProcessTest, AReaderThatLies_IsNotBelieved) {
     replaceReader("say(1)\ntime.sleep(1000)\n"); // before it has given up its rights
     EXPECT_THAT(failure(), HasSubstr(said));
     replaceReader("say(0)\nsay(4)\ntime.sleep(1000)\n");
+    EXPECT_THAT(failure(), HasSubstr("bytes that are no scene"));
+    replaceReader("say(0)\nos.write(4, bytes(999))\nsay(4, pool=1000)\ntime.sleep(1000)\n");
     EXPECT_THAT(failure(), HasSubstr("bytes that are no scene"));
     replaceReader("say(0)\nos.write(4, os.urandom(100000))\nsay(4)\ntime.sleep(1000)\n");
     EXPECT_THAT(failure(), HasSubstr("bytes that are no scene"));
