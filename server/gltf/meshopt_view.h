@@ -2,7 +2,7 @@
 // meshoptimizer.
 #pragma once
 
-#include "gltf/scene_folder.h"
+#include "gltf/bytes.h"
 
 #include <cstddef>
 #include <cstdint>
