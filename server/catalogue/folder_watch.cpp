@@ -58,10 +58,6 @@ FolderWatch::~FolderWatch() {
     ends_ = true;
     wake();
     thread_.join();
-    close(wake_);
-    if (events_ >= 0) {
-        close(events_);
-    }
 }
 
 void FolderWatch::lookAgain() {
@@ -71,16 +67,16 @@ void FolderWatch::lookAgain() {
 
 void FolderWatch::wake() const {
     const uint64_t one = 1;
-    (void)!write(wake_, &one, sizeof one); // an eventfd takes it
+    (void)!write(wake_.get(), &one, sizeof one); // an eventfd takes it
 }
 
 FolderWatch::Watched*
 FolderWatch::watch(const fs::path& folder, uint32_t events, Watches& watches) {
-    const int number = events_ >= 0 ? inotify_add_watch(events_, folder.c_str(), events) : -1;
+    const int number = events_ ? inotify_add_watch(events_.get(), folder.c_str(), events) : -1;
     if (number >= 0) {
         return &watches[number];
     }
-    if (events_ >= 0 && (errno == ENOENT || errno == ENOTDIR || errno == EACCES)) {
+    if (events_ && (errno == ENOENT || errno == ENOTDIR || errno == EACCES)) {
         return nullptr; // it went meanwhile, or is nobody's to read
     }
     if (!std::exchange(complained_, true)) {
@@ -135,7 +131,7 @@ void FolderWatch::watchAll() {
             continue;
         }
         if (complete) {
-            inotify_rm_watch(events_, number);
+            inotify_rm_watch(events_.get(), number);
         } else {
             now.emplace(number, std::move(watched));
         }
@@ -146,7 +142,7 @@ void FolderWatch::watchAll() {
 bool FolderWatch::takeEvents() const {
     alignas(inotify_event) std::array<char, 4096> bytes;
     bool any = false;
-    for (ssize_t size = 0; (size = read(events_, bytes.data(), bytes.size())) > 0;) {
+    for (ssize_t size = 0; (size = read(events_.get(), bytes.data(), bytes.size())) > 0;) {
         for (ssize_t at = 0; at < size;) {
             const auto* event = reinterpret_cast<const inotify_event*>(bytes.data() + at);
             const auto found = watches_.find(event->wd);
@@ -179,14 +175,15 @@ void FolderWatch::run() {
         return at;
     };
     while (!ends_) {
-        std::array<pollfd, 2> watched = {pollfd{wake_, POLLIN, 0}, pollfd{events_, POLLIN, 0}};
+        std::array<pollfd, 2> watched = {pollfd{wake_.get(), POLLIN, 0},
+                                         pollfd{events_.get(), POLLIN, 0}};
         const auto at = tellAt();
         const int wait = at ? millisecondsUntil(*at, Clock::now()) : -1;
         if (poll(watched.data(), watched.size(), wait) < 0 && errno != EINTR) {
             return;
         }
         uint64_t count = 0;
-        (void)!read(wake_, &count, sizeof count);
+        (void)!read(wake_.get(), &count, sizeof count);
         if (const TimePoint now = Clock::now(); takeEvents()) {
             untold = Changes{untold ? untold->first : now, now};
         }

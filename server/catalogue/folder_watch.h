@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/clock.h"
+#include "core/file_descriptor.h"
 
 #include <atomic>
 #include <cstdint>
@@ -54,8 +55,8 @@ class FolderWatch {
     const int deepest_;
     const Seconds rest_;
     const std::function<bool()> tell_;
-    int events_ = -1; // inotify's descriptor; -1: there is none
-    int wake_ = -1;   // an eventfd
+    FileDescriptor events_; // inotify's; there may be none
+    FileDescriptor wake_;   // an eventfd
     std::atomic<bool> ends_ = false;
     std::atomic<bool> asked_ = false;
     bool complained_ = false;

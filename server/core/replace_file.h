@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "core/write_all.h"
 
 #include <cerrno>
 #include <cstddef>
@@ -16,24 +17,6 @@ namespace froxel {
 
 // Whether the new file outlives a crash of the machine, for which the disk is waited for.
 enum class Durable : bool { kNo, kYes };
-
-namespace detail {
-
-inline bool writeAll(int file, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(file, bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR) {
-            continue;
-        }
-        if (count <= 0) {
-            return false;
-        }
-        bytes = bytes.subspan(static_cast<size_t>(count));
-    }
-    return true;
-}
-
-} // namespace detail
 
 // Writes the parts, one after another; makes the folder (for its owner only) where it is missing.
 // Errors: kIo.
@@ -57,7 +40,7 @@ inline bool writeAll(int file, std::span<const std::byte> bytes) {
     }
     int code = 0;
     for (const auto& part : parts) {
-        if (code == 0 && !detail::writeAll(handle, part)) {
+        if (code == 0 && !writeAll(handle, part)) {
             code = errno;
         }
     }
