@@ -1,40 +1,14 @@
 #include "gltf/gltf_loader.h"
 
-#include "core/text.h"
 #include "gltf/document.h"
-#include "gltf/failure.h"
 #include "gltf/load_progress.h"
+#include "gltf/load_result.h"
 #include "gltf/scene_builder.h"
 #include "gltf/scene_files.h"
 #include "gltf/scene_folder.h"
 
-#include <exception>
-#include <new>
-#include <string>
-
 namespace froxel::gltf {
 namespace {
-
-Error sceneError(const std::filesystem::path& file, const std::string& message) {
-    return {ErrorCode::kScene, printable(file.filename().string(), 300) + ": " + message};
-}
-
-// What `load` gives, or why it cannot.
-template <class Load>
-Result<scene::Scene> resultOf(const std::filesystem::path& file, Load load) {
-    try {
-        return load();
-    } catch (const CalledOff&) {
-        return Error{ErrorCode::kCancelled, printable(file.filename().string(), 300) +
-                                                ": cancelled, because nobody waits for it"};
-    } catch (const Failure& failure) {
-        return sceneError(file, failure.what());
-    } catch (const std::bad_alloc&) {
-        return sceneError(file, "out of memory; expected a smaller scene");
-    } catch (const std::exception& error) {
-        return sceneError(file, "cannot be read: " + printable(error.what(), 300));
-    }
-}
 
 scene::Scene read(FileOpener& opener,
                   const std::filesystem::path& file,
