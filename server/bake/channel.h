@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/flat_bytes.h"
+#include "bake/isolation.h"
 #include "core/error.h"
 #include "core/file_descriptor.h"
 
@@ -28,11 +29,10 @@ struct FileAnswer {
 enum class Say : uint8_t { kIsolated, kOpenScene, kOpen, kProgress, kScene, kError };
 struct Message {
     Say say = Say::kError;
-    std::string text{};    // a path, a stage, why it failed
-    std::string user{};    // of a path
-    double fraction = 0;   // of a stage
-    bool landlock = false; // of kIsolated
-    bool seccomp = false;
+    std::string text{};      // a path, a stage, why it failed
+    std::string user{};      // of a path
+    double fraction = 0;     // of a stage
+    Isolation isolation{};   // of kIsolated
     uint64_t pool_bytes = 0; // of kScene: where the output has the scene, behind its images
 };
 
@@ -40,9 +40,10 @@ template <>
 struct Values<Answer> : ValuesFrom<Answer, Answer::kOpened, Answer::kFailed> {};
 template <>
 struct Values<Say> : ValuesFrom<Say, Say::kIsolated, Say::kError> {};
+FROXEL_FIELDS(Isolation, 0, v.landlock, v.seccomp)
 FROXEL_FIELDS(Task, 0, v.file, v.memory_bytes, v.cpu_s)
 FROXEL_FIELDS(FileAnswer, 0, v.answer, v.text, v.size_bytes)
-FROXEL_FIELDS(Message, 0, v.say, v.text, v.user, v.fraction, v.landlock, v.seccomp, v.pool_bytes)
+FROXEL_FIELDS(Message, 0, v.say, v.text, v.user, v.fraction, v.isolation, v.pool_bytes)
 
 // One end of a pair of sockets that keep packets apart. Of one thread.
 class Channel {

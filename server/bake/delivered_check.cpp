@@ -2,11 +2,13 @@
 
 #include "core/finite.h"
 #include "core/text.h"
+#include "gltf/image_decode.h"
 #include "gltf/limits.h"
 #include "scene/motion.h"
 #include "scene/scene_check.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -32,25 +34,19 @@ bool isShort(const std::string& text, size_t most_bytes) {
     return text.size() <= most_bytes;
 }
 
-size_t bytesOf(uint32_t width_px, uint32_t height_px) {
-    return size_t{width_px} * height_px * 4;
-}
-
 Fault faultIn(const scene::Image& image) {
+    const gltf::ImageSize size{image.width_px, image.height_px};
     const uint32_t most = gltf::kMaxImageSide_px;
-    if (image.width_px == 0 || image.height_px == 0 || image.width_px > most ||
-        image.height_px > most || image.rgba8.size() != bytesOf(image.width_px, image.height_px)) {
+    if (size.width_px == 0 || size.height_px == 0 || size.width_px > most ||
+        size.height_px > most || image.rgba8.size() != size.levelBytes(0)) {
         return "its bytes are not those of its size";
     }
-    uint32_t width = image.width_px;
-    uint32_t height = image.height_px;
-    for (const auto& mip : image.mips) {
-        if (width == 1 && height == 1) {
-            return "it has levels below a pixel";
-        }
-        width = std::max(1U, width / 2);
-        height = std::max(1U, height / 2);
-        if (mip.size() != bytesOf(width, height)) {
+    if (image.mips.size() >=
+        static_cast<size_t>(std::bit_width(std::max(size.width_px, size.height_px)))) {
+        return "it has levels below a pixel";
+    }
+    for (uint32_t level = 1; level <= image.mips.size(); ++level) {
+        if (image.mips[level - 1].size() != size.levelBytes(level)) {
             return "a level's bytes are not those of its size";
         }
     }

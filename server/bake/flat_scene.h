@@ -19,8 +19,8 @@ void writeFlat(const scene::Scene& scene,
 
 // Trusts nothing in the bytes: takes memory in proportion to them, and checks what whoever uses the
 // scene relies on (scene::findFault(), sizes of images, finite cameras, lights and bounds, numbers
-// of things and lengths of names). pool: never changes
-// while `keeper` lives; images share it. Errors: kScene, one line. Throws std::bad_alloc.
+// of things and lengths of names). pool: never changes while `keeper` lives; images share it.
+// Errors: kScene, one line. Throws std::bad_alloc.
 [[nodiscard]] Result<scene::Scene> readFlat(std::span<const std::byte> bytes,
                                             std::span<const std::byte> pool = {},
                                             std::shared_ptr<const void> keeper = {});

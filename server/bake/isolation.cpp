@@ -94,19 +94,36 @@ struct Release {
 };
 using Filter = std::unique_ptr<void, Release>;
 
-constexpr std::array kAllowed = {
-    SCMP_SYS(read),           SCMP_SYS(pread64),       SCMP_SYS(write),
-    SCMP_SYS(pwrite64),       SCMP_SYS(ftruncate),
-
-    SCMP_SYS(writev),         SCMP_SYS(close),         SCMP_SYS(munmap),
-    SCMP_SYS(mremap),         SCMP_SYS(madvise),       SCMP_SYS(brk),
-    SCMP_SYS(futex),          SCMP_SYS(rseq),          SCMP_SYS(set_robust_list),
-    SCMP_SYS(sched_yield),    SCMP_SYS(clock_gettime), SCMP_SYS(clock_nanosleep),
-    SCMP_SYS(getrandom),      SCMP_SYS(sigaltstack),   SCMP_SYS(rt_sigaction),
-    SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigreturn),  SCMP_SYS(sched_getaffinity),
-    SCMP_SYS(recvmsg),        SCMP_SYS(sendmsg),       SCMP_SYS(restart_syscall),
-    SCMP_SYS(exit),           SCMP_SYS(exit_group),    SCMP_SYS(getpid),
-    SCMP_SYS(gettid)};
+constexpr std::array kAllowed = {SCMP_SYS(read),
+                                 SCMP_SYS(pread64),
+                                 SCMP_SYS(write),
+                                 SCMP_SYS(lseek),
+                                 SCMP_SYS(ftruncate),
+                                 SCMP_SYS(writev),
+                                 SCMP_SYS(close),
+                                 SCMP_SYS(munmap),
+                                 SCMP_SYS(mremap),
+                                 SCMP_SYS(madvise),
+                                 SCMP_SYS(brk),
+                                 SCMP_SYS(futex),
+                                 SCMP_SYS(rseq),
+                                 SCMP_SYS(set_robust_list),
+                                 SCMP_SYS(sched_yield),
+                                 SCMP_SYS(clock_gettime),
+                                 SCMP_SYS(clock_nanosleep),
+                                 SCMP_SYS(getrandom),
+                                 SCMP_SYS(sigaltstack),
+                                 SCMP_SYS(rt_sigaction),
+                                 SCMP_SYS(rt_sigprocmask),
+                                 SCMP_SYS(rt_sigreturn),
+                                 SCMP_SYS(sched_getaffinity),
+                                 SCMP_SYS(recvmsg),
+                                 SCMP_SYS(sendmsg),
+                                 SCMP_SYS(restart_syscall),
+                                 SCMP_SYS(exit),
+                                 SCMP_SYS(exit_group),
+                                 SCMP_SYS(getpid),
+                                 SCMP_SYS(gettid)};
 
 // What a C library tries and can do without.
 constexpr std::array kDenied = {

@@ -12,7 +12,6 @@ struct Isolation {
     bool seccomp = false;  // no system calls but those that reading takes
 
     [[nodiscard]] bool full() const { return landlock && seccomp; }
-    bool operator==(const Isolation&) const = default;
 };
 
 struct ResourceLimits {

@@ -3,13 +3,13 @@
 #include "bake/channel.h"
 #include "bake/flat_scene.h"
 #include "bake/isolation.h"
-#include "gltf/failure.h"
+#include "core/write_all.h"
 #include "gltf/file_opener.h"
 #include "gltf/gltf_loader.h"
+#include "gltf/load_result.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <limits>
 #include <memory>
 #include <sys/mman.h>
@@ -53,36 +53,21 @@ class Output {
     // Where it begins, behind the pool.
     uint64_t write(const scene::Scene& scene) {
         const uint64_t begin = std::min<uint64_t>(used_, pool_.size());
-        if (ftruncate(kOutputDescriptor, static_cast<off_t>(begin)) != 0) {
+        const auto end = static_cast<off_t>(begin);
+        if (ftruncate(kOutputDescriptor, end) != 0 ||
+            lseek(kOutputDescriptor, end, SEEK_SET) != end) {
             throw std::bad_alloc();
         }
-        uint64_t at = begin;
-        writeFlat(
-            scene,
-            [&at](std::span<const std::byte> part) {
-                writeAt(at, part);
-                at += part.size();
-            },
-            pool_);
+        const auto sink = [](std::span<const std::byte> part) {
+            if (!writeAll(kOutputDescriptor, part)) {
+                throw std::bad_alloc();
+            }
+        };
+        writeFlat(scene, sink, pool_);
         return begin;
     }
 
   private:
-    static void writeAt(uint64_t offset, std::span<const std::byte> bytes) {
-        while (!bytes.empty()) {
-            const ssize_t written =
-                pwrite(kOutputDescriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-            if (written < 0 && errno == EINTR) {
-                continue;
-            }
-            if (written <= 0) {
-                throw std::bad_alloc();
-            }
-            bytes = bytes.subspan(static_cast<size_t>(written));
-            offset += static_cast<uint64_t>(written);
-        }
-    }
-
     std::span<std::byte> pool_;
     std::atomic<uint64_t> used_{0};
 };
@@ -145,15 +130,16 @@ Message read(Channel& channel, const Task& task, Output& output) {
         return channel.send(
             Message{.say = Say::kProgress, .text = now.stage, .fraction = now.fraction});
     };
-    try {
-        const auto scene = gltf::loadFrom(opener, task.file, report, task.memory_bytes);
-        if (!scene) {
-            return {.say = Say::kError, .text = scene.error().message};
+    uint64_t pool_bytes = 0;
+    const auto scene = gltf::resultOf(task.file, [&] {
+        auto loaded = gltf::loadFrom(opener, task.file, report, task.memory_bytes);
+        if (loaded) {
+            pool_bytes = output.write(*loaded);
         }
-        return {.say = Say::kScene, .pool_bytes = output.write(*scene)};
-    } catch (const std::bad_alloc&) {
-        return {.say = Say::kError, .text = "out of memory; expected a smaller scene"};
-    }
+        return loaded;
+    });
+    return scene ? Message{.say = Say::kScene, .pool_bytes = pool_bytes}
+                 : Message{.say = Say::kError, .text = scene.error().message};
 }
 
 } // namespace
@@ -168,8 +154,7 @@ int runReader() {
     Output output(std::min(task->memory_bytes, kMostPool));
     const Isolation isolation =
         isolate({.address_bytes = most_bytes, .output_bytes = most_bytes, .cpu_s = task->cpu_s});
-    const bool told = channel.send(Message{
-        .say = Say::kIsolated, .landlock = isolation.landlock, .seccomp = isolation.seccomp});
+    const bool told = channel.send(Message{.say = Say::kIsolated, .isolation = isolation});
     return told && channel.send(read(channel, *task, output)) ? 0 : 1;
 }
 

@@ -4,7 +4,7 @@
 #include "bake/flat_scene.h"
 #include "bake/reader.h"
 #include "core/text.h"
-#include "gltf/failure.h"
+#include "gltf/load_result.h"
 #include "gltf/scene_folder.h"
 
 #include <array>
@@ -115,17 +115,15 @@ class Spawn {
 class Child {
   public:
     explicit Child(pid_t process) : process_(process) {}
-    ~Child() { end(SIGKILL); }
+    ~Child() { end(); }
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    // Its status, once. signal 0: it ends by itself.
-    int end(int signal) {
+    // Its status, once: killed, or how it had ended before.
+    int end() {
         int status = 0;
         if (process_ > 0) {
-            if (signal != 0) {
-                kill(process_, signal);
-            }
+            kill(process_, SIGKILL);
             while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
             }
             process_ = 0;
@@ -194,7 +192,7 @@ class Reading {
             }
             if (message && isolated_ &&
                 (message->say == Say::kScene || message->say == Say::kError)) {
-                child_.end(SIGKILL); // nothing more is expected of it
+                child_.end(); // nothing more is expected of it
                 return message->say == Say::kScene ? Result<uint64_t>(message->pool_bytes)
                                                    : fault(message->text);
             }
@@ -202,27 +200,23 @@ class Reading {
                 return answered.error();
             }
             if (!report_(now_)) {
-                return Error{ErrorCode::kCancelled,
-                             named("cancelled, because nobody waits for it")};
+                throw gltf::CalledOff();
             }
         }
     }
 
   private:
-    std::string named(const std::string& text) const {
-        return printable(file_.filename().string(), 300) + ": " + text;
-    }
     // Its own line, which names the file, or what is left of it.
     Error fault(const std::string& text) const {
         const std::string line = printable(text, 900);
-        const std::string begin = named("");
-        return {ErrorCode::kScene, line.starts_with(begin) ? line : begin + line};
+        return line.starts_with(gltf::begunWith(file_)) ? Error{ErrorCode::kScene, line}
+                                                        : gltf::sceneError(file_, line);
     }
     Error ended() {
-        const int status = child_.end(SIGKILL);
+        const int status = child_.end();
         const std::string how =
             channel_.closed() ? wordsOfEnd(status) : "its reader said what it must not say";
-        return {ErrorCode::kScene, named(how + stageWords())};
+        return gltf::sceneError(file_, how + stageWords());
     }
     std::string stageWords() const {
         return now_.stage.empty() ? " before it began" : " while " + now_.stage;
@@ -235,11 +229,10 @@ class Reading {
         switch (message.say) {
         case Say::kIsolated: {
             isolated_ = true;
-            const Isolation isolation{message.landlock, message.seccomp};
-            if (process_.sandbox == Sandbox::kRequire && !isolation.full()) {
+            if (process_.sandbox == Sandbox::kRequire && !message.isolation.full()) {
                 return Error{ErrorCode::kUnsupported,
                              "--sandbox require: this system isolates a reader by " +
-                                 wordsOf(isolation) + "; expected landlock and seccomp"};
+                                 wordsOf(message.isolation) + "; expected landlock and seccomp"};
             }
             return {};
         }
@@ -260,8 +253,8 @@ class Reading {
     template <class Open>
     Result<void> open(Open open) {
         if (++asked_count_ > kMostFiles) {
-            return Error{ErrorCode::kScene,
-                         named("it names more than " + std::to_string(kMostFiles) + " files")};
+            return gltf::sceneError(file_,
+                                    "it names more than " + std::to_string(kMostFiles) + " files");
         }
         FileAnswer answer;
         gltf::OpenedFile file;
@@ -320,8 +313,7 @@ Result<scene::Scene> loadApart(const fs::path& file,
     if (scene) {
         scene->files = folder.takeFiles();
     } else {
-        scene = Error{scene.error().code,
-                      printable(file.filename().string(), 300) + ": " + scene.error().message};
+        scene = Error{scene.error().code, gltf::begunWith(file) + scene.error().message};
     }
     return scene;
 }
@@ -335,14 +327,7 @@ Result<scene::Scene> load(const fs::path& file,
     if (process.sandbox == Sandbox::kOff) {
         return gltf::load(file, report, limits);
     }
-    const std::string name = printable(file.filename().string(), 300);
-    try {
-        return loadApart(file, process, report, limits);
-    } catch (const gltf::Failure& failure) {
-        return Error{ErrorCode::kScene, name + ": " + failure.what()};
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::kScene, name + ": out of memory; expected a smaller scene"};
-    }
+    return gltf::resultOf(file, [&] { return loadApart(file, process, report, limits); });
 }
 
 } // namespace froxel::bake

@@ -11,11 +11,15 @@
 
 namespace froxel::bake {
 
-[[nodiscard]] inline std::vector<std::byte> flat(const scene::Scene& scene) {
+[[nodiscard]] inline std::vector<std::byte> flat(const scene::Scene& scene,
+                                                 std::span<const std::byte> pool = {}) {
     std::vector<std::byte> bytes;
-    writeFlat(scene, [&](std::span<const std::byte> part) {
-        bytes.insert(bytes.end(), part.begin(), part.end());
-    });
+    writeFlat(
+        scene,
+        [&](std::span<const std::byte> part) {
+            bytes.insert(bytes.end(), part.begin(), part.end());
+        },
+        pool);
     return bytes;
 }
 

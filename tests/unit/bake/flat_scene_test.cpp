@@ -62,11 +62,7 @@ TEST(FlatScene, ImagesInAPool_AreSharedAndStayInIt) {
     const auto pool = std::make_shared<Bytes>(64, std::byte{9});
     scene::Scene scene = smallScene();
     scene.images[0].rgba8 = KeptBytes(std::span(*pool).subspan(40, 8), pool);
-    Bytes bytes;
-    const auto sink = [&](std::span<const std::byte> part) {
-        bytes.insert(bytes.end(), part.begin(), part.end());
-    };
-    writeFlat(scene, sink, *pool);
+    const Bytes bytes = flat(scene, *pool);
     const auto read = readFlat(bytes, *pool, pool);
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->images[0].rgba8.span().data(), pool->data() + 40);
