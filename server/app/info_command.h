@@ -14,7 +14,7 @@ struct InfoOptions {
     std::string scene;                      // empty: the device only
     std::filesystem::path scenes;           // a folder of them, and nothing besides; empty: none
     std::filesystem::path environment_file; // empty: none is looked at
-    bake::Sandbox sandbox = bake::Sandbox::kOff;
+    bake::Sandbox sandbox = bake::Sandbox::kBest;
     bool json = false;
 };
 

@@ -17,7 +17,7 @@ namespace froxel::app {
 struct RenderOptions {
     std::string scene = "builtin";
     SceneChoices choices;
-    bake::Sandbox sandbox = bake::Sandbox::kOff;
+    bake::Sandbox sandbox = bake::Sandbox::kBest;
     std::filesystem::path environment_file; // of light from around; empty: none
     gpu::DeviceOptions device;
     settings::ViewSettings settings; // but for the camera, which `camera` chooses

@@ -25,7 +25,7 @@ struct ServeOptions {
     net::BindAddress admin{"127.0.0.1", 9090}; // for operators; an empty address: nowhere
     std::string scene = "builtin";             // as for loadScene()
     SceneChoices choices;
-    bake::Sandbox sandbox = bake::Sandbox::kOff;
+    bake::Sandbox sandbox = bake::Sandbox::kBest;
     std::filesystem::path scenes;           // a folder of others; empty: there are none
     std::filesystem::path environment_file; // of light from around; empty: none
     bool detail_levels = false;             // render::SceneOptions

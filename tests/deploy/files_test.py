@@ -552,6 +552,13 @@ class Files(unittest.TestCase):
         self.assert_variables(re.findall(r"FROXEL_[A-Z_]+", unit))
         self.assertIn(f"\n# {self.service['exit_code_device_lost']}: the device was lost.", unit)
 
+    def test_unit_lets_scene_readers_give_up_their_rights(self):
+        unit = (DEPLOY / "systemd/froxel.service").read_text()
+        isolation = (ROOT / "server/bake/isolation.cpp").read_text()
+        used = set(re.findall(r"SYS_(landlock_\w+|seccomp)\b", isolation))
+        self.assertIn("seccomp", used)
+        self.assertLessEqual(used, set(re.search("SystemCallFilter=(.*)", unit)[1].split()))
+
     def test_proxies_outlast_pings_and_ask_for_readiness(self):
         nginx = (DEPLOY / "nginx.conf").read_text()
         for name in ("proxy_read_timeout", "proxy_send_timeout"):
