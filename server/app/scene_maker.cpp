@@ -14,6 +14,9 @@
 namespace froxel::app {
 namespace {
 
+// Of all threads of the process that reads a scene that a client brought.
+constexpr uint32_t kGuestCpu_s = 120;
+
 // Lights are picked where they stand at the time.
 session::LightPicker lightPicker(const scene::Scene& scene) {
     light::LightRig rig(scene);
@@ -66,7 +69,22 @@ Result<stream::ReadScene> SceneMaker::make(const std::string& source,
                                            const SceneChoices& choices,
                                            const ProgressReport& report,
                                            const gltf::LoadLimits& limits) const {
-    auto loaded = loadScene(source, choices, report, {limits, {.sandbox = options_.sandbox}});
+    return finish(source,
+                  loadScene(source, choices, report, {limits, {.sandbox = options_.sandbox}}));
+}
+
+Result<stream::ReadScene>
+SceneMaker::makeGuest(const std::shared_ptr<const guest::GuestScene>& brought,
+                      const ProgressReport& report,
+                      uint64_t memory_bytes) const {
+    return finish(brought->files.front().name,
+                  loadGuestScene(brought, report,
+                                 {.limits = {memory_bytes},
+                                  .process = {.sandbox = options_.sandbox, .cpu_s = kGuestCpu_s}}));
+}
+
+Result<stream::ReadScene> SceneMaker::finish(const std::string& source,
+                                             Result<scene::Scene> loaded) const {
     if (!loaded) {
         return loaded.error();
     }

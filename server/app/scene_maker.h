@@ -6,6 +6,7 @@
 #include "core/progress.h"
 #include "gltf/gltf_loader.h"
 #include "gpu/device.h"
+#include "guest/guest_scene.h"
 #include "stream/scene_host.h"
 
 #include <memory>
@@ -25,7 +26,15 @@ class SceneMaker {
                                                  const ProgressReport& report,
                                                  const gltf::LoadLimits& limits) const;
 
+    // As loadGuestScene(), likewise.
+    [[nodiscard]] Result<stream::ReadScene>
+    makeGuest(const std::shared_ptr<const guest::GuestScene>& brought,
+              const ProgressReport& report,
+              uint64_t memory_bytes) const;
+
   private:
+    [[nodiscard]] Result<stream::ReadScene> finish(const std::string& source,
+                                                   Result<scene::Scene> loaded) const;
     [[nodiscard]] session::SessionDefaults defaultsOf(const std::string& source,
                                                       const scene::Scene& scene) const;
     [[nodiscard]] std::vector<session::OfferedLook> looksOf(const std::string& source,

@@ -1,6 +1,7 @@
 #include "app/scene_source.h"
 
 #include "app/value_parsers.h"
+#include "bake/guest_files.h"
 #include "builtin_scene/hall.h"
 #include "core/text.h"
 #include "gltf/gltf_loader.h"
@@ -78,6 +79,12 @@ Result<void> chooseMaterialVariant(const std::string& wanted, scene::Scene& scen
     return {};
 }
 
+void placeCameras(scene::Scene& scene) {
+    if (scene.motion) {
+        motion::placeCameras(scene, motion::usualClips(*scene.motion), 0);
+    }
+}
+
 } // namespace
 
 Result<scene::Scene> loadScene(const std::string& source,
@@ -99,8 +106,18 @@ Result<scene::Scene> loadScene(const std::string& source,
             return chosen.error();
         }
     }
-    if (scene->motion) {
-        motion::placeCameras(*scene, motion::usualClips(*scene->motion), 0);
+    placeCameras(*scene);
+    return scene;
+}
+
+Result<scene::Scene> loadGuestScene(const std::shared_ptr<const guest::GuestScene>& brought,
+                                    const ProgressReport& report,
+                                    const SceneReading& reading) {
+    bake::GuestFiles files(brought);
+    auto scene = bake::loadFrom(files, brought->files.front().name, reading.process, report,
+                                reading.limits.memory_bytes);
+    if (scene) {
+        placeCameras(*scene);
     }
     return scene;
 }

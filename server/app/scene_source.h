@@ -7,10 +7,12 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "gltf/gltf_loader.h"
+#include "guest/guest_scene.h"
 #include "scene/scene.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -43,6 +45,12 @@ struct SceneReading {
                                              const SceneChoices& choices = {},
                                              const ProgressReport& report = workOn,
                                              const SceneReading& reading = {});
+
+// The same of a scene that a client brought, by a process of its own in any case.
+[[nodiscard]] Result<scene::Scene>
+loadGuestScene(const std::shared_ptr<const guest::GuestScene>& brought,
+               const ProgressReport& report,
+               const SceneReading& reading);
 
 // The settings of a view of it where nobody has asked for others: those given stay, the rest goes
 // by the scene (scene::lookFor()) and `look`, if there is one. The built-in scene begins with the

@@ -18,6 +18,7 @@ constexpr settings::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
 constexpr settings::Range<uint32_t> kRoomRange{"max_viewers_per_room", 0, 100'000};
 constexpr settings::Range<uint32_t> kAccountRange{"max_sessions_per_address", 0, 1000};
 constexpr settings::Range<uint32_t> kStillsRange{"max_stills_per_minute", 0, 1'000'000};
+constexpr settings::Range<uint32_t> kBodyRange{"max_body", 0, 4096};
 constexpr settings::Range<double> kRestRange{"paused_seconds", 0.0, 1e6};
 constexpr settings::Range<uint32_t> kConnectionsRange{"max_connections", 1, 1'000'000};
 constexpr settings::Range<double> kDrainRange{"drain_seconds", 0.0, 86'400.0};
@@ -37,6 +38,14 @@ Result<std::string> parseAdvertise(const std::string& text) {
     return Error{
         ErrorCode::kInvalidArgument,
         fmt::format("'{}' is neither none nor a WebSocket URL, such as wss://host/ws", text)};
+}
+
+void addStillLimits(CommandBuilder& command, ServeOptions& options) {
+    command.number("--max-stills-per-minute", options.stills_per_minute, kStillsRange,
+                   "Maximum number of /render pictures drawn for one token or address; 127.0.0.1 "
+                   "and ::1 are exempt; 0: no limit");
+    command.number("--max-body", options.body_mib, kBodyRange,
+                   "MiB of the largest scene that POST /render accepts; 0: it accepts none");
 }
 
 } // namespace
@@ -117,7 +126,7 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
     command.number(
         "--scene-memory", options.memory.scene_mib, kDeviceMemoryRange,
         fmt::format("{} of --device-memory", kSceneMemoryShare),
-        "MiB of --device-memory for the scenes of --scenes together; unused scenes leave first");
+        "MiB of --device-memory for all scenes but the first; unused scenes leave first");
     command.number(
         "--min-fps", options.min_rate_hz, kMinRateRange,
         byDevice([](const Defaults& d) { return fmt::format("{}", d.min_rate_hz); }),
@@ -136,9 +145,6 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
     command.number("--max-viewers-per-room", options.viewers_per_room, kRoomRange,
                    "Maximum number of viewers of one room, and half as many from one address "
                    "(IPv6: a /64); 127.0.0.1 and ::1 are exempt; 0: no limit");
-    command.number("--max-stills-per-minute", options.stills_per_minute, kStillsRange,
-                   "Maximum number of /render pictures drawn for one token or address; 127.0.0.1 "
-                   "and ::1 are exempt; 0: no limit");
     command.number("--paused-seconds", options.paused_s, kRestRange,
                    "Seconds after which a session gives its place to a newcomer, if all its "
                    "viewers are paused or acknowledge no frames");
@@ -161,6 +167,7 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
     command.number("--watchdog-seconds", options.watchdog_s, kWatchdogRange,
                    fmt::format("{} on a CPU device, {} on a GPU", kCpuWatchdog_s, kGpuWatchdog_s),
                    "Seconds of stalled drawing after which the process ends; 0: never");
+    addStillLimits(command, options);
 }
 
 } // namespace froxel::app

@@ -93,15 +93,20 @@ OpenedScene openScene(const ServeOptions& options, const ProgressReport& report)
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
     const uint64_t scene_bytes = sceneMemoryBytes(options.memory, limits);
+    const auto shares = std::make_shared<ReadShares>();
     return {std::move(source),
             std::move(first.context),
             std::move(memory),
             Seconds(limit_s),
             first.scene->files,
-            [maker, scene_bytes, shares = std::make_shared<ReadShares>()](
-                const catalogue::Offered& offered, const ProgressReport& report_on) {
+            [maker, scene_bytes, shares](const catalogue::Offered& offered,
+                                         const ProgressReport& report_on) {
                 const auto share = shares->take(scene_bytes);
                 return maker->make(offered.source, {}, report_on, {*share, true});
+            },
+            [maker, scene_bytes, shares](const auto& brought, const ProgressReport& report_on) {
+                const auto share = shares->take(scene_bytes);
+                return maker->makeGuest(brought, report_on, *share);
             },
             scene_bytes};
 }
@@ -174,6 +179,8 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.lobby = lobbyRules(options);
     run.server.stills.per_minute = options.stills_per_minute;
     run.server.stills.at_once = std::max(1.0, options.stills_per_minute / 10.0);
+    const bool isolated = options.sandbox != bake::Sandbox::kOff;
+    run.server.guest_body_bytes = isolated ? uint64_t{options.body_mib} << 20U : 0;
     run.server.web_root = webRootOf(options);
     run.server.allowed_origins = options.allowed_origins;
     run.server.host_names = options.host_names;

@@ -45,6 +45,7 @@ struct ServeOptions {
     uint32_t sessions_per_token = 0;
     uint32_t viewers_per_room = 256;
     uint32_t stills_per_minute = 600; // still::StillLimits
+    uint32_t body_mib = 64;
     double paused_s = 30;
     double idle_s = 300;
     double forget_s = 3600;

@@ -73,27 +73,40 @@ void ServeRun::rescan() {
 }
 
 std::shared_ptr<stream::SceneHost> ServeRun::makeScenes() {
-    if (!options_.catalogue) {
-        return nullptr;
-    }
     stream::SceneHostOptions scenes;
-    scenes.offers = [catalogue = options_.catalogue](const std::string& id) {
-        const auto offered = catalogue->find(id);
+    scenes.offers = [catalogue = options_.catalogue, guests = options_.server.guests](
+                        const std::string& id) -> std::optional<uint64_t> {
+        if (guests->find(id)) {
+            return 0; // it never changes
+        }
+        const auto offered = catalogue ? catalogue->find(id) : std::nullopt;
         return offered ? std::optional(offered->version) : std::nullopt;
     };
-    scenes.read = [this](const std::string& id,
-                         const ProgressReport& report) -> Result<stream::ReadScene> {
-        const auto offered = options_.catalogue->find(id);
-        if (!offered) {
-            return Error{ErrorCode::kScene, "the file no longer exists"};
-        }
-        auto read = read_other_(*offered, report);
-        if (read) {
-            options_.catalogue->noteRead(id, offered->version, read->scene->files);
-        }
-        return read;
+    scenes.read = [this](const std::string& id, const ProgressReport& report) {
+        return readScene(id, report);
     };
-    return std::make_shared<stream::SceneHost>(std::move(scenes));
+    auto host = std::make_shared<stream::SceneHost>(std::move(scenes));
+    options_.server.guests->onTakenOff([weak = std::weak_ptr(host)] {
+        if (const auto still_there = weak.lock()) {
+            still_there->tidy();
+        }
+    });
+    return host;
+}
+
+Result<stream::ReadScene> ServeRun::readScene(const std::string& id, const ProgressReport& report) {
+    if (const auto brought = options_.server.guests->find(id)) {
+        return read_guest_(brought, report);
+    }
+    const auto offered = options_.catalogue ? options_.catalogue->find(id) : std::nullopt;
+    if (!offered) {
+        return Error{ErrorCode::kScene, "the file no longer exists"};
+    }
+    auto read = read_other_(*offered, report);
+    if (read) {
+        options_.catalogue->noteRead(id, offered->version, read->scene->files);
+    }
+    return read;
 }
 
 stream::RenderLoopOptions ServeRun::loopOptions() {
@@ -108,34 +121,37 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
         server_->metrics().setDeviceLosses(options_.losses->count());
     }
     server_->metrics().watchLog(logLinesLost);
-    loop.make_source = [this, heartbeat = loop.heartbeat] {
-        net::Service& service = server_->service();
-        const auto offered = options_.catalogue ? options_.catalogue->listing()->scenes().front()
-                                                : catalogue::Offered();
-        OpenedScene opened = options_.open([&service](const Progress& progress) {
-            service.setLoading(progress);
-            return true;
-        });
-        opened.context.scene_id = offered.id;
-        auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
-        if (scenes_) {
-            read_other_ = std::move(opened.read_other);
-            server_->metrics().watchScenes([scenes = scenes_] { return scenes->counts(); });
-            scenes_->begin(*opened.source, context, offered.version, opened.scene_bytes,
-                           [this] { loop_.wake(); });
-            options_.catalogue->noteRead(offered.id, offered.version, std::move(opened.files));
-        }
-        server_->metrics().watchMemory(std::move(opened.memory));
-        if (const double rate_hz = context->defaults.min_rate_hz; rate_hz > 0) {
-            loop_.setMinRate(rate_hz, frameCost(opened.source, *context));
-            loop_.setNewcomersFrame(session::initialState(*context, Clock::now()).settings);
-        }
-        server_->metrics().watchLoad([this] { return loop_.load(Clock::now()); });
-        service.setServing(
-            {std::move(context), &loop_, heartbeat, opened.step_limit, scenes_.get()});
-        return std::move(opened.source);
-    };
+    loop.make_source = [this, heartbeat = loop.heartbeat] { return open(heartbeat); };
     return loop;
+}
+
+std::unique_ptr<stream::FrameSource>
+ServeRun::open(const std::shared_ptr<const Heartbeat>& heartbeat) {
+    net::Service& service = server_->service();
+    const auto offered =
+        options_.catalogue ? options_.catalogue->listing()->scenes().front() : catalogue::Offered();
+    OpenedScene opened = options_.open([&service](const Progress& progress) {
+        service.setLoading(progress);
+        return true;
+    });
+    opened.context.scene_id = offered.id;
+    auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
+    read_other_ = std::move(opened.read_other);
+    read_guest_ = std::move(opened.read_guest);
+    server_->metrics().watchScenes([scenes = scenes_] { return scenes->counts(); });
+    scenes_->begin(*opened.source, context, offered.version, opened.scene_bytes,
+                   [this] { loop_.wake(); });
+    if (options_.catalogue) {
+        options_.catalogue->noteRead(offered.id, offered.version, std::move(opened.files));
+    }
+    server_->metrics().watchMemory(std::move(opened.memory));
+    if (const double rate_hz = context->defaults.min_rate_hz; rate_hz > 0) {
+        loop_.setMinRate(rate_hz, frameCost(opened.source, *context));
+        loop_.setNewcomersFrame(session::initialState(*context, Clock::now()).settings);
+    }
+    server_->metrics().watchLoad([this] { return loop_.load(Clock::now()); });
+    service.setServing({std::move(context), &loop_, heartbeat, opened.step_limit, scenes_.get()});
+    return std::move(opened.source);
 }
 
 } // namespace froxel::app

@@ -7,6 +7,7 @@
 #include "catalogue/folder_watch.h"
 #include "core/file_stamp.h"
 #include "encode/encode_pool.h"
+#include "guest/guest_scene.h"
 #include "net/server.h"
 #include "session/session_context.h"
 #include "stream/render_loop.h"
@@ -23,6 +24,8 @@ namespace froxel::app {
 // Reads another scene, as stream::SceneHostOptions::read.
 using ReadOther = std::function<Result<stream::ReadScene>(const catalogue::Offered&,
                                                           const ProgressReport& report)>;
+using ReadGuest = std::function<Result<stream::ReadScene>(
+    const std::shared_ptr<const guest::GuestScene>&, const ProgressReport& report)>;
 
 // A scene on a device, ready to be drawn.
 struct OpenedScene {
@@ -31,7 +34,8 @@ struct OpenedScene {
     std::function<std::vector<MemoryUse>()> memory; // what the device's is used for; any thread
     Seconds step_limit{0};            // of the render thread, see net::Serving; 0: none
     std::vector<StampedFile> files{}; // scene::Scene
-    ReadOther read_other{};           // null: there is no other scene
+    ReadOther read_other{};           // null: there is no catalogue
+    ReadGuest read_guest{};           // null: clients bring none
     uint64_t scene_bytes = 0;         // that others may take of the device's memory, together
 };
 
@@ -39,7 +43,7 @@ struct ServeRunOptions {
     net::ServerOptions server;
     uint32_t encoder_count = 1;
     std::shared_ptr<DeviceLosses> losses;            // null: they are not noted
-    std::shared_ptr<catalogue::Catalogue> catalogue; // null: there is one scene
+    std::shared_ptr<catalogue::Catalogue> catalogue; // null: the server has one scene of its own
     // Runs on the render thread while the server already listens. May throw.
     std::function<OpenedScene(const ProgressReport& report)> open;
     // The scene could not be opened or the device was lost. On the render thread; must not throw.
@@ -76,12 +80,18 @@ class ServeRun {
   private:
     [[nodiscard]] stream::RenderLoopOptions loopOptions();
     [[nodiscard]] std::shared_ptr<stream::SceneHost> makeScenes();
+    [[nodiscard]] Result<stream::ReadScene> readScene(const std::string& id,
+                                                      const ProgressReport& report);
+    // On the render thread.
+    [[nodiscard]] std::unique_ptr<stream::FrameSource>
+    open(const std::shared_ptr<const Heartbeat>& heartbeat);
 
     ServeRunOptions options_;
     encode::EncodePool pool_;
-    // Set before the first scene is asked for.
+    // Both set before the first scene is asked for.
     ReadOther read_other_;
-    std::shared_ptr<stream::SceneHost> scenes_; // null: there is one scene
+    ReadGuest read_guest_;
+    const std::shared_ptr<stream::SceneHost> scenes_;
     std::unique_ptr<net::Server> server_; // goes after the loop has stopped and before it is gone
     stream::RenderLoop loop_;
     std::optional<catalogue::FolderWatch> watch_;

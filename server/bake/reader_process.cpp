@@ -173,15 +173,15 @@ class Reading {
     Reading(const fs::path& file,
             const ReaderProcess& process,
             const ProgressReport& report,
-            gltf::SceneFolder& folder,
+            gltf::FileOpener& opener,
             FileDescriptor channel,
             pid_t child)
-        : file_(file), process_(process), report_(report), folder_(folder),
+        : file_(file), process_(process), report_(report), opener_(opener),
           channel_(std::move(channel)), child_(child) {}
 
     // Until the reader says that the scene is there: how many bytes of images lie before it.
-    Result<uint64_t> run(const gltf::LoadLimits& limits) {
-        if (!channel_.send(Task{file_.filename().string(), limits.memory_bytes, process_.cpu_s})) {
+    Result<uint64_t> run(uint64_t memory_bytes) {
+        if (!channel_.send(Task{file_.filename().string(), memory_bytes, process_.cpu_s})) {
             return ended();
         }
         while (true) {
@@ -237,9 +237,9 @@ class Reading {
             return {};
         }
         case Say::kOpenScene:
-            return open([this] { return folder_.openScene(); });
+            return open([this] { return opener_.openScene(); });
         case Say::kOpen:
-            return open([&] { return folder_.open(message.text, printable(message.user, 300)); });
+            return open([&] { return opener_.open(message.text, printable(message.user, 300)); });
         case Say::kProgress:
             now_ = {printable(message.text, 100), std::clamp(message.fraction, 0.0, 1.0)};
             return {};
@@ -276,7 +276,7 @@ class Reading {
     const fs::path& file_;
     const ReaderProcess& process_;
     const ProgressReport& report_;
-    gltf::SceneFolder& folder_;
+    gltf::FileOpener& opener_;
     Channel channel_;
     Child child_;
     bool isolated_ = false;
@@ -284,11 +284,11 @@ class Reading {
     Progress now_;
 };
 
-Result<scene::Scene> loadApart(const fs::path& file,
+Result<scene::Scene> loadApart(gltf::FileOpener& opener,
+                               const fs::path& file,
                                const ReaderProcess& process,
                                const ProgressReport& report,
-                               const gltf::LoadLimits& limits) {
-    gltf::SceneFolder folder(file, limits.no_link);
+                               uint64_t memory_bytes) {
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair) != 0) {
         return systemError("cannot make a channel to a reader");
@@ -304,18 +304,14 @@ Result<scene::Scene> loadApart(const fs::path& file,
         return systemError("cannot start a reader");
     }
     theirs = FileDescriptor();
-    Reading reading(file, process, report, folder, std::move(ours), child);
-    const auto pool_bytes = reading.run(limits);
+    Reading reading(file, process, report, opener, std::move(ours), child);
+    const auto pool_bytes = reading.run(memory_bytes);
     if (!pool_bytes) {
         return pool_bytes.error();
     }
     auto scene = readOutput(output, *pool_bytes);
-    if (scene) {
-        scene->files = folder.takeFiles();
-    } else {
-        scene = Error{scene.error().code, gltf::begunWith(file) + scene.error().message};
-    }
-    return scene;
+    return scene ? std::move(scene)
+                 : Error{scene.error().code, gltf::begunWith(file) + scene.error().message};
 }
 
 } // namespace
@@ -327,7 +323,28 @@ Result<scene::Scene> load(const fs::path& file,
     if (process.sandbox == Sandbox::kOff) {
         return gltf::load(file, report, limits);
     }
-    return gltf::resultOf(file, [&] { return loadApart(file, process, report, limits); });
+    return gltf::resultOf(file, [&] {
+        gltf::SceneFolder folder(file, limits.no_link);
+        auto scene = loadApart(folder, file, process, report, limits.memory_bytes);
+        if (scene) {
+            scene->files = folder.takeFiles();
+        }
+        return scene;
+    });
+}
+
+Result<scene::Scene> loadFrom(gltf::FileOpener& opener,
+                              const fs::path& file,
+                              const ReaderProcess& process,
+                              const ProgressReport& report,
+                              uint64_t memory_bytes) {
+    if (process.sandbox == Sandbox::kOff) {
+        return Error{ErrorCode::kUnsupported,
+                     gltf::begunWith(file) + "--sandbox off reads no scene that a client brings; "
+                                             "expected --sandbox best or require"};
+    }
+    return gltf::resultOf(file,
+                          [&] { return loadApart(opener, file, process, report, memory_bytes); });
 }
 
 } // namespace froxel::bake

@@ -5,6 +5,7 @@
 #include "bake/isolation.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "gltf/file_opener.h"
 #include "gltf/gltf_loader.h"
 #include "scene/scene.h"
 
@@ -31,5 +32,13 @@ struct ReaderProcess {
                                         const ReaderProcess& process,
                                         const ProgressReport& report = workOn,
                                         const gltf::LoadLimits& limits = {});
+
+// Likewise of files that somebody else opens, and always in a process of its own; `file` names the
+// scene. Without Scene::files. kUnsupported: `process` has none.
+[[nodiscard]] Result<scene::Scene> loadFrom(gltf::FileOpener& opener,
+                                            const std::filesystem::path& file,
+                                            const ReaderProcess& process,
+                                            const ProgressReport& report,
+                                            uint64_t memory_bytes);
 
 } // namespace froxel::bake

@@ -7,12 +7,15 @@
 
 #include <boost/asio/dispatch.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/string.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <spdlog/fmt/chrono.h>
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -180,21 +183,15 @@ void HttpSession::onReadError(beast::error_code error) {
 }
 
 void HttpSession::onRequest() {
-    if (!parser_->is_done()) { // the header is complete and something is to follow
+    const bool receives =
+        parser_->get().method() == http::verb::post && site_->takesBody(pathOf(parser_->get()));
+    if (!receives && !parser_->is_done()) { // the header is complete and something is to follow
         write(refusal(http::status::payload_too_large, "requests must not have a body"));
         return;
     }
     ticket_->heardClient();
-    Request request = parser_->release();
-    parser_.reset();
-    if (const auto settled = settleForm(request); !settled) {
-        write(refusal(settled.error().code == ErrorCode::kUnsupported
-                          ? http::status::not_implemented
-                          : http::status::bad_request,
-                      settled.error().message));
-        return;
-    }
-    if (auto refused = refuseHost(request, *site_)) {
+    Request request = receives ? parser_->get() : parser_->release();
+    if (auto refused = refuse(request)) {
         write(std::move(*refused));
         return;
     }
@@ -203,6 +200,11 @@ void HttpSession::onRequest() {
         refuseLater(wait);
         return;
     }
+    if (receives) {
+        receive(std::move(request));
+        return;
+    }
+    parser_.reset();
     if (beast::websocket::is_upgrade(request)) {
         upgrade(std::move(request));
         return;
@@ -213,6 +215,116 @@ void HttpSession::onRequest() {
     const bool asks = request.method() == http::verb::get && isSocketPath(pathOf(request));
     auto refused = asks ? site_->refuseUpgrade(request, peer) : std::nullopt;
     write(refused ? std::move(*refused) : respond(request, *site_, peer));
+}
+
+std::optional<Response> HttpSession::refuse(Request& request) const {
+    if (const auto settled = settleForm(request); !settled) {
+        return refusal(settled.error().code == ErrorCode::kUnsupported
+                           ? http::status::not_implemented
+                           : http::status::bad_request,
+                       settled.error().message);
+    }
+    return refuseHost(request, *site_);
+}
+
+void HttpSession::receive(Request request) {
+    const uint64_t size_bytes = parser_->content_length().value_or(0);
+    auto received = site_->receive(request, pathOf(request), peerAddress(stream_), size_bytes);
+    receiving_ = std::make_shared<Receiving>(std::move(*parser_), std::move(request));
+    parser_.reset();
+    if (auto* refused = std::get_if<Response>(&received)) {
+        refuseBody(std::move(*refused));
+        return;
+    }
+    receiving_->body = std::move(std::get<std::unique_ptr<RequestBody>>(received));
+    receiving_->due = std::chrono::steady_clock::now() + kDeadline +
+                      std::chrono::seconds(size_bytes / kSlowestBodyBytes_s);
+    stream_.next_layer().rate_policy().beginBody();
+    const auto expects = receiving_->request[http::field::expect];
+    if (beast::iequals(expects, "100-continue")) { // RFC 9110, 10.1.1
+        tellToContinue();
+    } else if (!expects.empty()) {
+        refuseBody(refusal(http::status::expectation_failed,
+                           "the only expectation that is met is 100-continue"));
+    } else {
+        receiveMore();
+    }
+}
+
+void HttpSession::tellToContinue() {
+    static constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+    stream_.next_layer().expires_after(kDeadline);
+    boost::asio::async_write(stream_, boost::asio::buffer(kContinue),
+                             [self = shared_from_this()](beast::error_code error, size_t) {
+                                 if (error || !guarded("http read", [&] {
+                                         self->stream_.next_layer().expires_never();
+                                         self->receiveMore();
+                                     })) {
+                                     self->close();
+                                 }
+                             });
+}
+
+void HttpSession::receiveMore() {
+    request_deadline_.expires_at(
+        std::min(receiving_->due, std::chrono::steady_clock::now() + kLongestPause));
+    request_deadline_.async_wait([self = shared_from_this()](beast::error_code error) {
+        if (!error && self->receiving_ &&
+            self->request_deadline_.expiry() <= std::chrono::steady_clock::now()) {
+            self->late_ = true;
+            self->stream_.next_layer().cancel();
+        }
+    });
+    auto& into = receiving_->parser.get().body();
+    into.data = receiving_->part.data();
+    into.size = receiving_->part.size();
+    http::async_read_some(
+        stream_, buffer_, receiving_->parser,
+        [self = shared_from_this(), held = receiving_](beast::error_code error, size_t) {
+            if (!guarded("http read", [&] { self->onPart(error); })) {
+                self->close();
+            }
+        });
+}
+
+void HttpSession::onPart(beast::error_code error) {
+    if (!receiving_) { // closed meanwhile
+        return;
+    }
+    request_deadline_.cancel();
+    if (error && error != http::error::need_buffer) {
+        if (late_) {
+            refuseBody(
+                refusal(http::status::request_timeout,
+                        "the body came with less than " + numberText(kSlowestBodyBytes_s / 1024) +
+                            " KiB/s or paused for " + numberText(kLongestPause.count()) + " s"));
+        } else {
+            close();
+        }
+        return;
+    }
+    const size_t came = receiving_->part.size() - receiving_->parser.get().body().size;
+    if (auto refused = receiving_->body->take(std::span(receiving_->part).first(came))) {
+        refuseBody(std::move(*refused));
+        return;
+    }
+    if (!receiving_->parser.is_done()) {
+        receiveMore();
+        return;
+    }
+    stream_.next_layer().rate_policy().endBody();
+    const auto received = std::move(receiving_);
+    answerLaterBy(received->request, [&](auto done) {
+        return std::optional(received->body->complete(std::move(done)));
+    });
+}
+
+void HttpSession::refuseBody(Response response) {
+    response.keep_alive(receiving_->parser.is_done() && receiving_->request.keep_alive());
+    LateAnswer answer = finished(receiving_->request, {std::move(response)});
+    receiving_.reset();
+    stream_.next_layer().rate_policy().endBody();
+    write(std::move(answer));
 }
 
 // A refusal that came at once would be asked for again at once, and each costs as much as an
@@ -240,8 +352,16 @@ bool HttpSession::answersLater(const Request& request) {
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
         return false;
     }
+    answerLaterBy(request, [&](auto done) {
+        return site_->answerLater(request, pathOf(request), peerAddress(stream_), std::move(done));
+    });
+    return call_off_.has_value();
+}
+
+template <class Ask>
+void HttpSession::answerLaterBy(const Request& request, const Ask& ask) {
     const uint64_t question = ++question_;
-    auto done = [self = shared_from_this(), question, request](LateAnswer answer) {
+    call_off_ = ask([self = shared_from_this(), question, request](LateAnswer answer) {
         boost::asio::post(
             self->strand_, [self, question, request, answer = std::move(answer)]() mutable {
                 if (self->question_ == question && std::exchange(self->call_off_, std::nullopt) &&
@@ -250,12 +370,10 @@ bool HttpSession::answersLater(const Request& request) {
                     self->close();
                 }
             });
-    };
-    call_off_ = site_->answerLater(request, pathOf(request), peerAddress(stream_), std::move(done));
+    });
     if (call_off_) {
         watchForEnd(question);
     }
-    return call_off_.has_value();
 }
 
 // Nothing is drawn for who has gone. What a client sends ahead waits.
@@ -346,6 +464,7 @@ void HttpSession::linger() {
 
 void HttpSession::close() {
     reading_ = false;
+    receiving_.reset();
     request_deadline_.cancel();
     if (const auto call_off = std::exchange(call_off_, std::nullopt)) {
         (*call_off)();

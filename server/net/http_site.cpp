@@ -20,7 +20,9 @@ answerTo(const Request& request, const HttpSite& site, const boost::asio::ip::ad
     const bool posts = site.takesPost(pathOf(request));
     const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
     if (posts ? request.method() != http::verb::post : !reads) {
-        const std::string allowed = posts ? "POST" : "GET, HEAD";
+        const std::string allowed = posts                             ? "POST"
+                                    : site.takesBody(pathOf(request)) ? "GET, HEAD, POST"
+                                                                      : "GET, HEAD";
         Response response =
             textResponse(http::status::method_not_allowed, "only " + allowed + " is answered here");
         response.set(http::field::allow, allowed);
@@ -30,6 +32,13 @@ answerTo(const Request& request, const HttpSite& site, const boost::asio::ip::ad
 }
 
 } // namespace
+
+HttpSite::Received HttpSite::receive(const Request& /*request*/,
+                                     std::string_view /*path*/,
+                                     const boost::asio::ip::address& /*peer*/,
+                                     uint64_t /*size_bytes*/) const {
+    return refusal(http::status::payload_too_large, "requests must not have a body");
+}
 
 std::string textOf(const nlohmann::ordered_json& json) {
     return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);

@@ -19,8 +19,10 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace froxel::net {
 
@@ -44,6 +46,21 @@ struct LateAnswer {
     // Told when the picture's bytes begin to be sent, and how the connection is closed, which they
     // may have to go for; none: nobody wants to know.
     std::function<void(std::function<void()> close)> sending{};
+};
+
+// Takes the body of a request as it comes. One strand; ends before it is complete where the
+// connection does.
+class RequestBody {
+  public:
+    RequestBody() = default;
+    virtual ~RequestBody() = default;
+    RequestBody(const RequestBody&) = delete;
+    RequestBody& operator=(const RequestBody&) = delete;
+
+    // The next bytes, in their order. Not none: why no more are wanted.
+    [[nodiscard]] virtual std::optional<Response> take(std::span<const std::byte> bytes) = 0;
+    // All have come: as HttpSite::answerLater().
+    [[nodiscard]] virtual std::function<void()> complete(std::function<void(LateAnswer)> done) = 0;
 };
 
 class HttpSite {
@@ -73,6 +90,14 @@ class HttpSite {
                 std::function<void(LateAnswer)> /*done*/) const {
         return {};
     }
+    // Whether a POST to this path has a body.
+    [[nodiscard]] virtual bool takesBody(std::string_view /*path*/) const { return false; }
+    // What takes the body of such a request, of so many bytes, or why it must not come.
+    using Received = std::variant<Response, std::unique_ptr<RequestBody>>;
+    [[nodiscard]] virtual Received receive(const Request& request,
+                                           std::string_view path,
+                                           const boost::asio::ip::address& peer,
+                                           uint64_t size_bytes) const;
     // Why this request of `peer` may not become a WebSocket; none when it may. Asked of a plain GET
     // of its path, too: a browser's page is told no status of a WebSocket that was refused.
     [[nodiscard]] virtual std::optional<Response>

@@ -164,9 +164,6 @@ CommandResult<void> LiveSession::selectScene(const Place& place,
             audience_.tellScene(mail);
             return {};
         }
-        if (serving_.scenes == nullptr) {
-            return refuse({RejectCode::kUnsupported, 0, "scene", "this server has one scene"});
-        }
         auto scene = serving_.scenes->want(id, shared_from_this());
         if (!scene) {
             Rejection refused{RejectCode::kOutOfRange, 0, "scene",

@@ -22,6 +22,13 @@ class PacedReads {
         budget_ = {};
         told_ = std::move(told);
     }
+    // A body whose bytes are counted elsewhere comes as fast as it can; what was read of it is
+    // forgotten.
+    void beginBody() { in_body_ = true; }
+    void endBody() {
+        in_body_ = false;
+        budget_ = {};
+    }
     [[nodiscard]] Standing standing() const { return budget_.standing(); }
     // Counts something by a function of ReadBudget.
     template <class... Args>
@@ -37,13 +44,20 @@ class PacedReads {
     friend class boost::beast::rate_policy_access;
     static constexpr size_t kAny = std::numeric_limits<size_t>::max();
 
-    [[nodiscard]] size_t available_read_bytes() const { return budget_.readable(Clock::now()); }
+    [[nodiscard]] size_t available_read_bytes() const {
+        return in_body_ ? kAny : budget_.readable(Clock::now());
+    }
     [[nodiscard]] static size_t available_write_bytes() noexcept { return kAny; }
-    void transfer_read_bytes(size_t bytes) { count(&ReadBudget::onBytes, bytes, Clock::now()); }
+    void transfer_read_bytes(size_t bytes) {
+        if (!in_body_) {
+            count(&ReadBudget::onBytes, bytes, Clock::now());
+        }
+    }
     static void transfer_write_bytes(size_t /*bytes*/) noexcept {}
     static void on_timer() noexcept {}
 
     ReadBudget budget_;
+    bool in_body_ = false;
     std::function<void(Standing)> told_;
 };
 

@@ -213,12 +213,13 @@ struct Asked {
 };
 using Done = std::function<void(LateAnswer)>;
 
-// Of two handlers a route has one.
+// Of the first two handlers a route has one; the third is of those that a body may be sent to.
 struct Route {
     bool (*has)(std::string_view path);
     Gate gate;
     Response (*now)(const Asked& asked);
     HttpSite::CallOff (*later)(const Asked& asked, const Done& done);
+    HttpSite::Received (*receive)(const Asked& asked, uint64_t size_bytes) = nullptr;
 };
 
 Response health(const Asked& asked) {
@@ -275,20 +276,41 @@ HttpSite::CallOff preview(const Asked& asked, const Done& done) {
 
 HttpSite::CallOff still(const Asked& asked, const Done& done) {
     return asked.site->stills->answer(
-        asked.request, asked.path, asked.caller, asked.site->gate == nullptr,
+        {asked.request, std::string(asked.path), asked.caller, asked.site->gate == nullptr},
         [site = asked.site, request = asked.request, done](LateAnswer answer) {
             letOthersShow(request, *site, answer.response);
             done(std::move(answer));
         });
 }
 
-// The first that has a path answers it. All are read, by GET and HEAD, and take no body.
+// A still of a scene that comes with the request.
+HttpSite::Received guestStill(const Asked& asked, uint64_t size_bytes) {
+    const Caller& caller = asked.caller;
+    const auto account =
+        caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
+    StillAnswers::Asked still{asked.request, std::string(asked.path), caller};
+    return asked.site->guest_bodies->receive(
+        account, size_bytes,
+        [site = asked.site, still = std::move(still)](auto scene, const Done& done) {
+            auto asked_of = still;
+            asked_of.guest = std::move(scene);
+            return site->stills->answer(asked_of,
+                                        [site, request = still.request, done](LateAnswer answer) {
+                                            letOthersRead(request, *site, answer.response);
+                                            done(std::move(answer));
+                                        });
+        });
+}
+
+// The first that has a path answers it. All are read, by GET and HEAD.
 constexpr std::array kRoutes = {
     Route{[](std::string_view path) { return path == "/healthz"; }, Gate::kAll, health, nullptr},
     Route{[](std::string_view path) { return path == "/settings.json"; }, Gate::kAll, settingWords,
           nullptr},
-    Route{StillAnswers::has, Gate::kShown, nullptr,
-          still}, // thumbnails are below the listing's path
+    Route{[](std::string_view path) { return path == kStillPath; }, Gate::kShown, nullptr, still,
+          guestStill},
+    // Thumbnails are below the listing's path.
+    Route{StillAnswers::has, Gate::kShown, nullptr, still},
     Route{SceneListing::has, Gate::kOwn, sceneListing, nullptr},
     Route{[](std::string_view path) { return path == kLinkPath; }, Gate::kAll, nullptr, preview},
     Route{[](std::string_view path) { return path == "/metrics"; }, Gate::kAll, noMetrics, nullptr},
@@ -344,6 +366,21 @@ PublicSite::answerLater(const Request& request,
         return [] {};
     }
     return route.later(asked, done);
+}
+
+bool PublicSite::takesBody(std::string_view path) const {
+    return routeOf(path).receive != nullptr;
+}
+
+HttpSite::Received PublicSite::receive(const Request& request,
+                                       std::string_view path,
+                                       const asio::ip::address& peer,
+                                       uint64_t size_bytes) const {
+    Asked asked{request, path, peer, site_, {}};
+    if (auto refused = refuseAt(Gate::kOwn, asked)) {
+        return std::move(*refused);
+    }
+    return routeOf(path).receive(asked, size_bytes);
 }
 
 std::optional<Response> PublicSite::refuseUpgrade(const Request& request,

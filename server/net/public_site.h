@@ -24,6 +24,11 @@ class PublicSite final : public HttpSite {
                 std::string_view path,
                 const boost::asio::ip::address& peer,
                 std::function<void(LateAnswer)> done) const override;
+    [[nodiscard]] bool takesBody(std::string_view path) const override;
+    [[nodiscard]] Received receive(const Request& request,
+                                   std::string_view path,
+                                   const boost::asio::ip::address& peer,
+                                   uint64_t size_bytes) const override;
     [[nodiscard]] std::optional<Response>
     refuseUpgrade(const Request& request, const boost::asio::ip::address& peer) const override;
     [[nodiscard]] uint32_t connectionsMax(const boost::asio::ip::address& peer) const override;

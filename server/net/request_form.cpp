@@ -38,13 +38,12 @@ Result<void> settleForm(Request& request) {
     if (request.version() >= 11 && request.count(http::field::host) == 0) { // RFC 9112, 3.2
         return Error{ErrorCode::kInvalidArgument, "the field Host is missing"};
     }
-    // No request here has a body, and one whose end others see elsewhere hides the next (RFC 9112,
-    // 6.1 and 11.2).
+    // A body whose end others see elsewhere hides the next request (RFC 9112, 6.1 and 11.2).
     if (request.count(http::field::transfer_encoding) > 0) {
         return Error{ErrorCode::kUnsupported,
                      "the Transfer-Encoding " +
                          printable(std::string(request[http::field::transfer_encoding])) +
-                         " is not supported; requests must not have a body"};
+                         " is not supported; a body needs a Content-Length"};
     }
     for (const auto name : kLists) {
         const auto lines = request.equal_range(name);

@@ -1,6 +1,7 @@
 // The network room's door: the listeners, their threads, and what all connections share.
 #pragma once
 
+#include "guest/guest_shelf.h"
 #include "net/agones.h"
 #include "net/bind_address.h"
 #include "net/lobby_rules.h"
@@ -35,8 +36,13 @@ struct ServerOptions {
     uint32_t connections_max = 512;
     LobbyRules lobby;
     still::StillLimits stills;
-    std::filesystem::path web_root;                        // empty: no page
-    std::shared_ptr<const catalogue::Catalogue> catalogue; // of scenes; null: there is one
+    std::filesystem::path web_root; // empty: no page
+    std::shared_ptr<const catalogue::Catalogue>
+        catalogue; // of the server's own scenes; null: it has one
+    // Where scenes that clients bring are found by whoever loads them.
+    std::shared_ptr<guest::GuestShelf> guests = std::make_shared<guest::GuestShelf>();
+    // Of one that comes in the body of a request; 0: none may.
+    uint64_t guest_body_bytes = uint64_t{64} << 20U;
     std::vector<std::string> allowed_origins;
     std::vector<std::string> trusted_proxies;    // networks, as TrustedProxies::parse
     std::vector<std::string> host_names;         // answered to at both addresses, see HostNames

@@ -24,7 +24,7 @@ struct Serving {
     // Of the thread that draws; null: not watched.
     std::shared_ptr<const Heartbeat> heartbeat{};
     Seconds step_limit{0};                // one step of it that takes longer never ends
-    session::ScenePort* scenes = nullptr; // outlives every connection; null: there is one scene
+    session::ScenePort* scenes = nullptr; // outlives every connection
 };
 
 // No session begins any more; those that are there go on until it is over.

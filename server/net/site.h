@@ -3,6 +3,7 @@
 #pragma once
 
 #include "net/client_address.h"
+#include "net/guest_bodies.h"
 #include "net/host_names.h"
 #include "net/lobby.h"
 #include "net/long_work.h"
@@ -39,6 +40,7 @@ struct Site {
     std::shared_ptr<const SceneListing> scenes;
     std::shared_ptr<still::StillDesk> still_desk;
     std::shared_ptr<StillAnswers> stills;
+    std::shared_ptr<GuestBodies> guest_bodies;
     LongWork* long_work = nullptr; // lives until the network's threads have ended
 };
 

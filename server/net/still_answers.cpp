@@ -132,17 +132,15 @@ bool StillAnswers::lasts(const Request& request, const still::StillRequest& stil
     return offered && viewOf(request.target()).ends_with(fmt::format("?v={:x}", offered->version));
 }
 
-std::optional<Response> StillAnswers::read(const Request& request,
-                                           std::string_view path,
-                                           still::StillRequest& still) const {
-    still.scene = sceneOfThumbnail(path);
+std::optional<Response> StillAnswers::read(const Asked& asked, still::StillRequest& still) const {
+    still.scene = sceneOfThumbnail(asked.path);
     still.thumbnail = !still.scene.empty();
     if (still.thumbnail) {
         still.view = {
             {"size", fmt::format("{}x{}", kThumbnailSize.width_px, kThumbnailSize.height_px)}};
         return {};
     }
-    const auto target = targetOf(request);
+    const auto target = targetOf(asked.request);
     if (!target) {
         return refused(http::status::bad_request, "malformed", "", "the address is malformed");
     }
@@ -156,6 +154,10 @@ std::optional<Response> StillAnswers::read(const Request& request,
                            "is given twice");
         }
         if (said.key == "scene") {
+            if (asked.guest) {
+                return refused(http::status::bad_request, "unsupported", "scene",
+                               "is given in the address and in the body; expected one of them");
+            }
             still.scene = said.value;
         } else if (said.key == "format") {
             const auto format = std::ranges::find(kFormats, said.value, &Format::name);
@@ -172,14 +174,14 @@ std::optional<Response> StillAnswers::read(const Request& request,
         }
     }
     std::ranges::sort(still.view, {}, &still::Entry::name); // none stands for another order
+    if (asked.guest) {
+        still.scene = asked.guest->id();
+        still.kept = false;
+    }
     return {};
 }
 
-HttpSite::CallOff StillAnswers::answer(const Request& request,
-                                       std::string_view path,
-                                       const Caller& caller,
-                                       bool shared,
-                                       const Done& done) {
+HttpSite::CallOff StillAnswers::answer(const Asked& asked, const Done& done) {
     const auto nothing = [] {};
     const ServiceStatus status = service_->status();
     if (status.draining || status.lost) {
@@ -187,15 +189,13 @@ HttpSite::CallOff StillAnswers::answer(const Request& request,
         return nothing;
     }
     if (status.serving) {
-        return draw(*status.serving, request, path, caller, shared, done);
+        return draw(*status.serving, asked, done);
     }
     const auto early = std::make_shared<Early>();
-    early->account = caller.local && !caller.token ? "" : caller.account().key;
+    early->account = asked.caller.local && !asked.caller.token ? "" : asked.caller.account().key;
     early->due = Clock::now() + std::chrono::duration_cast<Clock::duration>(kPatience);
     early->done = done;
-    early->ask = [this, request, path = std::string(path), caller, shared, done] {
-        return answer(request, path, caller, shared, done);
-    };
+    early->ask = [this, asked, done] { return answer(asked, done); };
     if (auto call_off = waitForScene(early)) {
         return std::move(*call_off);
     }
@@ -273,44 +273,44 @@ void StillAnswers::close() {
     early.swap(early_);
 }
 
-HttpSite::CallOff StillAnswers::draw(const Serving& serving,
-                                     const Request& request,
-                                     std::string_view path,
-                                     const Caller& caller,
-                                     bool shared,
-                                     const Done& done) const {
+HttpSite::CallOff
+StillAnswers::draw(const Serving& serving, const Asked& asked, const Done& done) const {
     const auto nothing = [] {};
+    const auto& [request, path, caller, shared, guest] = asked;
     still::StillRequest still;
-    if (auto refusal = read(request, path, still)) {
+    if (auto refusal = read(asked, still)) {
         done({std::move(*refusal)});
         return nothing;
     }
     const Format& format = formatOf(still.codec);
     still.tag = serving.context->server_version + "\n" + serving.context->device_name + "\n" +
-                sceneTag(still.scene) + "\n" + std::string(format.name);
+                (guest ? still.scene : sceneTag(still.scene)) + "\n" + std::string(format.name);
     for (const auto& [name, text] : still.view) {
         still.tag += "\n" + name + "=" + text;
     }
     const std::string etag = etagOf(still.tag);
     const std::string caching = std::string(shared ? "" : "private, ") +
                                 (lasts(request, still) ? "max-age=86400" : "no-cache");
-    const auto tagged = [etag, caching](Response response) {
-        response.set(http::field::etag, etag);
-        response.set(http::field::cache_control, caching);
+    // The next one of a scene that comes with the request is another one.
+    const auto tagged = [etag, caching, once = guest != nullptr](Response response) {
+        if (!once) {
+            response.set(http::field::etag, etag);
+            response.set(http::field::cache_control, caching);
+        }
         return response;
     };
-    if (hasAlready(request, etag)) {
+    if (!guest && hasAlready(request, etag)) {
         done({tagged(makeResponse(http::status::not_modified, format.content_type, {}))});
         return nothing;
     }
     // Of what there is nothing of yet; whether there will be is found out by drawing it.
-    const bool any = hasAnything(request);
+    const bool any = !guest && hasAnything(request);
     const bool thumbnail = still.thumbnail;
     const auto account =
         caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
     const auto ticket = desk_->ask(
         {serving.context, serving.port, serving.scenes}, std::move(still), account,
-        [done, tagged, &format, thumbnail, any](const still::StillOutcome& outcome) {
+        [done, tagged, &format, thumbnail, any, guest = guest](const still::StillOutcome& outcome) {
             if (const auto* refusal = std::get_if<still::StillRefusal>(&outcome)) {
                 done({refusedBy(*refusal, thumbnail)});
                 return;

@@ -3,6 +3,7 @@
 
 #include "catalogue/catalogue.h"
 #include "core/clock.h"
+#include "guest/guest_shelf.h"
 #include "net/caller.h"
 #include "net/http_site.h"
 #include "net/service.h"
@@ -26,7 +27,7 @@ class StillAnswers final : public ServiceListener,
   public:
     static constexpr settings::Size kThumbnailSize{320, 180};
 
-    // `catalogue` may be null: there is one scene.
+    // `catalogue` may be null: the server has one scene of its own.
     StillAnswers(std::shared_ptr<still::StillDesk> desk,
                  std::shared_ptr<const catalogue::Catalogue> catalogue,
                  std::shared_ptr<const Service> service);
@@ -41,11 +42,16 @@ class StillAnswers final : public ServiceListener,
 
     // Whether it is asked for something of this.
     [[nodiscard]] static bool has(std::string_view path);
-    // As HttpSite::answerLater. `shared`: whether caches between may keep it.
-    [[nodiscard]] HttpSite::CallOff answer(const Request& request,
-                                           std::string_view path,
-                                           const Caller& caller,
-                                           bool shared,
+    struct Asked {
+        Request request;
+        std::string path;
+        Caller caller;
+        bool shared = false; // whether caches between may keep it
+        guest::GuestShelf::SharedHold
+            guest{}; // the scene that came with it; null: one of the server's
+    };
+    // As HttpSite::answerLater.
+    [[nodiscard]] HttpSite::CallOff answer(const Asked& asked,
                                            const std::function<void(LateAnswer)>& done);
 
   private:
@@ -63,14 +69,10 @@ class StillAnswers final : public ServiceListener,
 
     // None where too many wait.
     [[nodiscard]] std::optional<HttpSite::CallOff> waitForScene(std::shared_ptr<Early> early);
-    [[nodiscard]] HttpSite::CallOff draw(const Serving& serving,
-                                         const Request& request,
-                                         std::string_view path,
-                                         const Caller& caller,
-                                         bool shared,
-                                         const Done& done) const;
-    [[nodiscard]] std::optional<Response>
-    read(const Request& request, std::string_view path, still::StillRequest& still) const;
+    [[nodiscard]] HttpSite::CallOff
+    draw(const Serving& serving, const Asked& asked, const Done& done) const;
+    [[nodiscard]] std::optional<Response> read(const Asked& asked,
+                                               still::StillRequest& still) const;
     [[nodiscard]] std::string sceneTag(const std::string& scene) const;
     // Whether the address itself goes by the scene's version, as the listing has it.
     [[nodiscard]] bool lasts(const Request& request, const still::StillRequest& still) const;

@@ -1,26 +1,12 @@
 #include "session/resume_token.h"
 
-#include <array>
-#include <cerrno>
-#include <cstdint>
-#include <sys/random.h>
-#include <system_error>
+#include "core/unguessable.h"
 
 namespace froxel::session {
 
 std::string makeResumeToken() {
-    std::array<uint8_t, 32> bytes{};
-    // Up to 256 bytes come whole, or not at all.
-    if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-        throw std::system_error(errno, std::generic_category(), "getrandom");
-    }
-    constexpr std::string_view kHex = "0123456789abcdef";
-    std::string token;
-    for (const uint8_t byte : bytes) {
-        token += kHex[byte >> 4U];
-        token += kHex[byte & 0xFU];
-    }
-    return token;
+    constexpr size_t kBytes = 32;
+    return unguessable(kBytes);
 }
 
 std::string_view resumeName(std::string_view token) {

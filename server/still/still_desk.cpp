@@ -50,11 +50,20 @@ StillRefusal refusalOf(const Rejection& why, const Entries& view) {
     return refusal;
 }
 
+RejectCode codeOf(const Error& error) {
+    switch (error.code) {
+    case ErrorCode::kUnsupported:
+        return RejectCode::kUnsupported;
+    case ErrorCode::kScene:
+        return RejectCode::kMalformed;
+    default:
+        return RejectCode::kCapacity;
+    }
+}
+
 StillRefusal refusalOf(const Error& error, const settings::Size& size) {
     const bool size_matters = error.too_large_by > 0;
-    StillRefusal refusal{
-        {error.code == ErrorCode::kUnsupported ? RejectCode::kUnsupported : RejectCode::kCapacity,
-         0, size_matters ? "size" : "", error.message}};
+    StillRefusal refusal{{codeOf(error), 0, size_matters ? "size" : "", error.message}};
     if (size_matters) {
         refusal.fits = smaller(size, error.too_large_by * kCaution);
     }
@@ -174,11 +183,6 @@ void StillDesk::add(
     alarm_(here->due);
     if (here->request.scene.empty() || here->request.scene == source.first->scene_id) {
         onSceneHere(here, source.first, now, calls);
-    } else if (source.scenes == nullptr) {
-        finish(here,
-               StillRefusal{session::outOfRange("scene", "is \"" + printable(here->request.scene) +
-                                                             "\"; this server has one scene")},
-               calls);
     }
 }
 
@@ -425,7 +429,9 @@ void StillDesk::onDrawn(StillWorker& worker, session::ReadyFrame frame) {
         }
         const auto job = *std::exchange(worker.drawing, std::nullopt);
         ++counts_.drawn_total;
-        storeFor(job->request).keep(job->request.tag, frame.bytes);
+        if (job->request.kept) {
+            storeFor(job->request).keep(job->request.tag, frame.bytes);
+        }
         finish(job, frame.bytes, calls);
         goOn(worker, Clock::now(), calls);
     });

@@ -38,6 +38,7 @@ struct StillRequest {
     Entries view;
     settings::Codec codec = settings::Codec::kJpeg;
     bool thumbnail = false; // kept apart from the others, which may be many
+    bool kept = true;       // whether the picture is given again
     std::string tag;        // of what the picture is a function of
 };
 
@@ -45,7 +46,7 @@ struct StillRequest {
 struct StillSource {
     session::SharedContext first;
     session::StreamPort* port = nullptr;
-    session::ScenePort* scenes = nullptr; // null: there is one scene
+    session::ScenePort* scenes = nullptr;
 };
 
 struct StillRefusal {

@@ -380,14 +380,38 @@ Result<void> SceneHost::makeRoom(uint64_t bytes, const std::string& name) {
             }
         }
         taken -= oldest->second.source->bytes();
-        spdlog::info("event=scene_left scene={} bytes={}",
-                     logValue(oldest->second.context->scene.name), oldest->second.source->bytes());
         ++counts_.evicted_total;
-        leaving_.push_back(std::move(oldest->second.source));
-        residents_.erase(oldest);
+        oldest = leave(oldest);
     }
     wake_();
     return {};
+}
+
+SceneHost::Residents::iterator SceneHost::leave(Residents::iterator resident) {
+    spdlog::info("event=scene_left scene={} bytes={}",
+                 logValue(resident->second.context->scene.name), resident->second.source->bytes());
+    leaving_.push_back(std::move(resident->second.source));
+    return residents_.erase(resident);
+}
+
+bool SceneHost::dropWithdrawn() {
+    bool held = false;
+    for (auto resident = residents_.begin(); resident != residents_.end();) {
+        if (options_.offers(resident->second.id)) {
+            ++resident;
+        } else if (isHeld(resident->second)) {
+            held = true;
+            ++resident;
+        } else {
+            resident = leave(resident);
+        }
+    }
+    return held;
+}
+
+void SceneHost::tidy() {
+    const std::lock_guard lock(mutex_);
+    wake_();
 }
 
 bool SceneHost::isAwaited(const Coming& coming) const {
@@ -447,8 +471,10 @@ void SceneHost::finish(const std::string& id, Result<SharedContext> outcome) {
                      logValue((*outcome)->scene.name), (*outcome)->scene.triangle_count,
                      took.count());
     } else {
-        spdlog::warn("event=scene_not_loaded scene={} seconds={:.2f} reason={}", logValue(id),
-                     took.count(), logValue(outcome.error().message, 400));
+        // Of its id a part: the whole is the key to a scene that a client brought.
+        spdlog::warn("event=scene_not_loaded scene={} seconds={:.2f} reason={}",
+                     logValue(id.substr(0, 8)), took.count(),
+                     logValue(outcome.error().message, 400));
     }
     for (size_t i = 0; i < waiters.size(); ++i) { // nothing here holds it when the last one has it
         const bool last = i + 1 == waiters.size();
@@ -461,8 +487,10 @@ std::optional<TimePoint> SceneHost::work(TimePoint now) {
     std::unique_ptr<SceneMove> given_up;
     std::string id;
     SceneMove* move = nullptr;
+    bool withdrawn_held = false;
     {
         const std::lock_guard lock(mutex_);
+        withdrawn_held = dropWithdrawn();
         if (!leaving_.empty()) {
             leaving = std::move(leaving_.back());
             leaving_.pop_back();
@@ -481,7 +509,7 @@ std::optional<TimePoint> SceneHost::work(TimePoint now) {
             break;
         }
         if (!leaving && !given_up && move == nullptr) {
-            return {};
+            return withdrawn_held ? std::optional(now + kLook) : std::nullopt;
         }
     }
     if (move != nullptr) {

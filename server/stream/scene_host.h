@@ -4,8 +4,8 @@
 // One at a time is read, on a thread of low priority, and moved to the device in slices, between
 // others' frames. A file that takes longer than a moment no longer keeps the next ones from being
 // read beside it, and one that takes far too long is given up. Where memory is short, scenes leave
-// that nobody holds, the one asked for longest ago first; the scene that the server began with
-// stays.
+// that nobody holds, the one asked for longest ago first; a scene that is not offered any more
+// leaves in any case. The scene that the server began with stays.
 #pragma once
 
 #include "core/clock.h"
@@ -72,6 +72,8 @@ class SceneHost final : public session::ScenePort {
     [[nodiscard]] std::optional<TimePoint> work(TimePoint now);
     // Of the scene that a state holds; null: the first one.
     [[nodiscard]] SceneSource& sourceOf(const session::SessionContext* scene);
+    // Something is not offered any more: it leaves the device once nobody holds it. Any thread.
+    void tidy();
     // The device goes, and with it all that is there, which nobody draws any more.
     void end();
     // The device is lost: what it may still use is never freed.
@@ -104,6 +106,7 @@ class SceneHost final : public session::ScenePort {
         session::SceneContents of;
     };
     using Waiters = std::vector<std::shared_ptr<session::SceneWaiter>>;
+    using Residents = std::map<uint64_t, Resident>; // by SessionContext::scene_number
 
     void run(const std::stop_token& stop);
     // Under the lock: the one whose turn it is, or that nobody waits for any more; end: none yet.
@@ -117,6 +120,11 @@ class SceneHost final : public session::ScenePort {
     [[nodiscard]] bool isFirst(const std::string& id, std::optional<uint64_t> version) const;
     // Under the lock: has scenes leave for so many more bytes. Errors: kCapacity.
     [[nodiscard]] Result<void> makeRoom(uint64_t bytes, const std::string& name);
+    // Under the lock: the next one.
+    Residents::iterator leave(Residents::iterator resident);
+    // Under the lock: has what is not offered any more and nobody holds leave. Whether some of it
+    // is still held.
+    [[nodiscard]] bool dropWithdrawn();
     void keepContents(const std::string& id, Contents contents);
     [[nodiscard]] uint64_t bytesTaken() const;
     [[nodiscard]] static bool isHeld(const Resident& resident);
@@ -133,8 +141,8 @@ class SceneHost final : public session::ScenePort {
     mutable std::mutex mutex_;
     std::condition_variable_any queued_;
     std::deque<std::string> queue_;
-    std::map<std::string, Coming> coming_;              // by id
-    std::map<uint64_t, Resident> residents_;            // by SessionContext::scene_number
+    std::map<std::string, Coming> coming_; // by id
+    Residents residents_;
     std::map<std::string, Contents> contents_;          // by id, of all that were ever read
     std::vector<std::unique_ptr<SceneSource>> leaving_; // which the render thread ends
     session::SceneCounts counts_;                       // of what adds up

@@ -104,7 +104,7 @@ TEST_F(HttpTest, Still_ThatCannotBe_IsToldWhatWouldBeRight) {
         {"scene=&scene=a", 400, "scene is given twice"},
         {"format=gif", 400, "it must be jpg, png, exr"},
         {"%6e%00=1", 400, R"(n\\x00 is not a name)"},
-        {"scene=other", 404, "this server has one scene"},
+        {"scene=other", 404, "not a scene of this server"},
         {"size=4096x4096&antialiasing=ssaa4", 400, R"("fits":"2048x2048)"},
     };
     for (const auto& [query, status, text] : cases) {
@@ -114,7 +114,11 @@ TEST_F(HttpTest, Still_ThatCannotBe_IsToldWhatWouldBeRight) {
     }
     const std::string post = exchange("POST /render HTTP/1.1\r\nHost: localhost\r\n"
                                       "Content-Length: 0\r\nConnection: close\r\n\r\n");
-    EXPECT_EQ(statusOf(post), 405);
+    EXPECT_EQ(statusOf(post), 411);
+    const std::string put = exchange("PUT /render HTTP/1.1\r\nHost: localhost\r\n"
+                                     "Connection: close\r\n\r\n");
+    EXPECT_EQ(statusOf(put), 405);
+    EXPECT_NE(put.find("Allow: GET, HEAD, POST\r\n"), std::string::npos) << put;
     EXPECT_EQ(statusOf(get("/render/more")), 404);
     EXPECT_EQ(statusOf(get("/rendering")), 404);
 }

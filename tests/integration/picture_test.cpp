@@ -53,20 +53,27 @@ Rgb decodePng(const std::string& file) {
     return rgb;
 }
 
+// What a command writes there.
+std::string fileOf(const std::vector<std::string>& command, const std::filesystem::path& file) {
+    const auto end = ChildProcess(command).wait();
+    EXPECT_EQ(end.exit_code, 0) << end.errors;
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+}
+
 // What `froxel render` writes as this.
-std::string renderedFile(const std::string& extension) {
+std::string renderedFile(const std::string& extension, const std::vector<std::string>& more = {}) {
     const auto file = std::filesystem::path(testing::TempDir()) /
                       ("froxel_picture_" + std::to_string(getpid()) + extension);
     std::vector<std::string> command = {test::binaryPath(), "render", "--device",     "cpu",
                                         "--time",           "1",      "--no-animate", "--out",
                                         file.string()};
     command.insert(command.end(), kSettings.begin(), kSettings.end());
-    const auto end = ChildProcess(command).wait();
-    EXPECT_EQ(end.exit_code, 0) << end.errors;
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
+    command.insert(command.end(), more.begin(), more.end());
+    const std::string text = fileOf(command, file);
     std::filesystem::remove(file);
-    return text.str();
+    return text;
 }
 
 Rgb upsideDown(const Rgb& rgb) {
@@ -168,6 +175,44 @@ TEST(Still, IsTheRenderedPicture_ToTheBit) {
     const std::string answer = httpGet(port, "/render?format=png" + view);
     ASSERT_EQ(statusOf(answer), 200) << answer.substr(0, 1000);
     EXPECT_EQ(decodePng(bodyOf(answer)), wanted);
+}
+
+// By a process without rights, of a file that no folder has.
+TEST(Still, OfAPostedScene_IsTheRenderedPicture_ToTheBit) {
+    const auto file = std::filesystem::path(testing::TempDir()) /
+                      ("froxel_posted_" + std::to_string(getpid()) + ".glb");
+    const std::string body =
+        fileOf({test::binaryPath(), "scene", "--out", file.string(), "--spheres", "1000"}, file);
+    const Rgb wanted = decodePng(renderedFile(".png", {"--scene", file.string()}));
+    std::filesystem::remove(file);
+
+    ServerProcess server({"--size", "64x64", "--lights", "5"});
+    const uint16_t port = server.port().value();
+    const auto post = [&](const std::string& query, const std::string& scene) {
+        return httpExchange(port, "POST /render?" + query +
+                                      " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n"
+                                      "Content-Length: " +
+                                      std::to_string(scene.size()) + "\r\n\r\n" + scene);
+    };
+    const std::string view = "format=png&look=rainbow&size=320x180&lights=100&light_radius=3&"
+                             "renderer=forward_plus&light_time=1";
+    const std::string answer = post(view, body);
+    ASSERT_EQ(statusOf(answer), 200) << answer.substr(0, 1000);
+    EXPECT_EQ(decodePng(bodyOf(answer)), wanted);
+    EXPECT_EQ(answer.find("ETag"), std::string::npos);
+
+    const std::string broken = post("size=64x64", body.substr(0, body.size() / 2));
+    EXPECT_EQ(statusOf(broken), 400);
+    EXPECT_NE(broken.find(R"("code":"malformed","field":"scene","message":"scene.glb: )"),
+              std::string::npos)
+        << broken;
+    EXPECT_EQ(statusOf(post("scene=builtin", body)), 400);
+    // Nothing of them is left.
+    std::string metrics;
+    do {
+        metrics = httpGet(server.adminPort().value(), "/metrics");
+    } while (sampleOf(metrics, "froxel_scene_memory_bytes") > 0);
+    EXPECT_EQ(sampleOf(metrics, R"(froxel_scenes{state="resident"})"), 1);
 }
 
 // By the device's time; what is said to fit does.

@@ -119,3 +119,54 @@ async def silent_at_the_admin_address(arena):
         finally:
             writer.close()
         await asyncio.sleep(0.2)
+
+
+GLB = b"glTF\x02\x00\x00\x00"
+BROKEN = {
+    "no header": GLB,
+    "a chunk of 4 GiB": GLB + b"\x1c\x00\x00\x00\xff\xff\xff\xffJSON" + b"{}      ",
+    "no JSON": GLB + b"\x1c\x00\x00\x00\x08\x00\x00\x00JSON" + b"\xff" * 8,
+    "deep JSON": b'{"a":' * 100_000,
+    "a large mesh of nothing": b'{"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"count":2000000000,'
+                               b'"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],'
+                               b'"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}',
+    "a path": b'{"asset":{"version":"2.0"},"buffers":[{"uri":"/etc/passwd","byteLength":12}]}',
+}
+
+
+async def post(arena, body, size=None, address=None):
+    reader, writer = await arena.connect(*([address] if address else []))
+    try:
+        writer.write(f"POST /render?size=64x64 HTTP/1.1\r\nHost: localhost\r\n"
+                     f"Content-Length: {len(body) if size is None else size}\r\n\r\n".encode() + body)
+        head = await reader.readuntil(b"\r\n\r\n")
+        status = int(head.split()[1])
+        arena.heard[f"HTTP {status}"] += 1
+        return status
+    except asyncio.IncompleteReadError:
+        arena.heard["hung up"] += 1
+        return None
+    finally:
+        writer.close()
+
+
+@case(clients=8, seconds=10, needs=("HTTP 400",), newcomer=True, most=JOINS)
+async def broken_scenes_posted(arena):
+    """Posts files that are broken in six ways, as fast as they are refused."""
+    for body in itertools.cycle(BROKEN.values()):
+        await post(arena, body)
+
+
+@case(clients=16, seconds=14, needs=("HTTP 408", "HTTP 200"), newcomer=True,
+      serve=("--max-body", "8"), most={**JOINS, "rss_mb": 1500})
+async def scenes_that_never_come(arena):
+    """Announces scenes of the largest size and sends a byte of each; another address still gets its picture."""
+    if arena.index == 0:
+        scene = b'{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"scene":0,"nodes":[{}]}'
+        await asyncio.sleep(3)
+        while True:
+            assert await post(arena, scene, address="127.0.66.99") == 200
+            await asyncio.sleep(0.5)
+    while True:
+        await post(arena, b"{", 8 << 20, f"127.0.66.{arena.index}")
+        await asyncio.sleep(0.2)

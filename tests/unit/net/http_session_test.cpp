@@ -101,6 +101,16 @@ class PatientSite final : public HttpSite {
         asked = std::move(done);
         return [this] { called_off = true; };
     }
+    [[nodiscard]] bool takesBody(std::string_view path) const override { return path == "/body"; }
+    [[nodiscard]] Received receive(const Request& /*request*/,
+                                   std::string_view /*path*/,
+                                   const boost::asio::ip::address& /*peer*/,
+                                   uint64_t size_bytes) const override {
+        if (size_bytes > kMostBytes) {
+            return textResponse(boost::beast::http::status::payload_too_large, "too large");
+        }
+        return std::make_unique<Body>(*this);
+    }
     [[nodiscard]] std::optional<Response>
     refuseUpgrade(const Request& /*request*/,
                   const boost::asio::ip::address& /*peer*/) const override {
@@ -112,10 +122,32 @@ class PatientSite final : public HttpSite {
     void onConnectionRefused() const override {}
     [[nodiscard]] Service* drainsWith() const override { return nullptr; }
 
+    static constexpr uint64_t kMostBytes = 1 << 20;
     mutable std::function<void(LateAnswer)> asked;
     mutable bool called_off = false;
+    mutable std::string received; // of bodies
+    mutable int bodies = 0;       // that there are
 
   private:
+    class Body final : public RequestBody {
+      public:
+        explicit Body(const PatientSite& site) : site_(site) { ++site_.bodies; }
+        ~Body() override { --site_.bodies; }
+        std::optional<Response> take(std::span<const std::byte> bytes) override {
+            site_.received.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+            return site_.received.starts_with("no")
+                       ? std::optional(
+                             textResponse(boost::beast::http::status::bad_request, "not this"))
+                       : std::nullopt;
+        }
+        CallOff complete(std::function<void(LateAnswer)> done) override {
+            site_.asked = std::move(done);
+            return [&site = site_] { site.called_off = true; };
+        }
+
+      private:
+        const PatientSite& site_;
+    };
     const HostNames any_{};
 };
 
@@ -130,6 +162,13 @@ class LateAnswerTest : public testing::Test {
     void send(std::string_view path) {
         boost::asio::write(client_, boost::asio::buffer("GET " + std::string(path) +
                                                         " HTTP/1.1\r\nHost: localhost\r\n\r\n"));
+    }
+    void post(size_t size_bytes, std::string_view fields, std::string_view body) {
+        boost::asio::write(client_,
+                           boost::asio::buffer("POST /body HTTP/1.1\r\nHost: localhost\r\n" +
+                                               std::string(fields) +
+                                               "Content-Length: " + std::to_string(size_bytes) +
+                                               "\r\n\r\n" + std::string(body)));
     }
     template <class Condition>
     void runUntil(const Condition& condition) {
@@ -200,6 +239,73 @@ TEST_F(LateAnswerTest, ToWhoHasGone_IsCalledOff) {
     client_.close();
     runUntil([&] { return site_->called_off; });
     site_->asked({textResponse(boost::beast::http::status::ok, "to nobody")});
+}
+
+TEST_F(LateAnswerTest, Body_ComesInParts_AndTheConnectionGoesOn) {
+    const std::string body(300'000, 'b'); // of several parts
+    post(body.size(), "", body.substr(0, 1));
+    runUntil([&] { return site_->received.size() == 1; });
+    EXPECT_EQ(site_->asked, nullptr);
+    boost::asio::write(client_, boost::asio::buffer(body.substr(1)));
+    runUntil([&] { return site_->asked != nullptr; });
+    EXPECT_EQ(site_->received, body);
+    EXPECT_EQ(site_->bodies, 0);
+    site_->asked({textResponse(boost::beast::http::status::ok, "drawn")});
+    EXPECT_TRUE(received("drawn\n").starts_with("HTTP/1.1 200"));
+    send("/now");
+    EXPECT_TRUE(received("at once\n").starts_with("HTTP/1.1 200"));
+}
+
+TEST_F(LateAnswerTest, BodyThatIsTooLarge_IsRefusedBeforeItComes) {
+    post(PatientSite::kMostBytes + 1, "Expect: 100-continue\r\n", "");
+    const std::string answer = received("too large\n");
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 413")) << answer;
+    EXPECT_NE(answer.find("Connection: close\r\n"), std::string::npos) << answer;
+}
+
+TEST_F(LateAnswerTest, BodyThatIsExpectedToContinue_IsAskedFor) {
+    post(4, "Expect: 100-continue\r\n", "");
+    EXPECT_EQ(received("\r\n\r\n"), "HTTP/1.1 100 Continue\r\n\r\n");
+    boost::asio::write(client_, boost::asio::buffer(std::string("body")));
+    runUntil([&] { return site_->asked != nullptr; });
+    EXPECT_EQ(site_->received, "body");
+    site_->asked({textResponse(boost::beast::http::status::ok, "drawn")});
+    EXPECT_TRUE(received("drawn\n").starts_with("HTTP/1.1 200"));
+}
+
+TEST_F(LateAnswerTest, OtherExpectations_AreNotMet) {
+    post(4, "Expect: the-unexpected\r\n", "");
+    EXPECT_TRUE(received("100-continue\n").starts_with("HTTP/1.1 417"));
+}
+
+TEST_F(LateAnswerTest, BodyThatIsNotWanted_EndsTheConnection) {
+    post(1000, "", "no");
+    const std::string answer = received("not this\n");
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 400")) << answer;
+    EXPECT_NE(answer.find("Connection: close\r\n"), std::string::npos) << answer;
+    EXPECT_EQ(site_->bodies, 0);
+}
+
+// At each byte of it.
+TEST_F(LateAnswerTest, ConnectionLostWithinABody_LetsGoOfIt) {
+    for (size_t came = 0; came < 8; ++came) {
+        site_->received.clear();
+        post(8, "", std::string(came, 'b'));
+        runUntil([&] { return site_->bodies == 1 && site_->received.size() == came; });
+        client_.close();
+        runUntil([&] { return site_->bodies == 0; });
+        EXPECT_EQ(site_->asked, nullptr);
+        client_ = tcp::socket(context_);
+        client_.connect(acceptor_.local_endpoint());
+        std::make_shared<HttpSession>(acceptor_.accept(), nullptr, site_, oneTicket())->start();
+    }
+}
+
+TEST_F(LateAnswerTest, WhoGoesAfterTheBody_CallsItOff) {
+    post(4, "", "body");
+    runUntil([&] { return site_->asked != nullptr; });
+    client_.close();
+    runUntil([&] { return site_->called_off; });
 }
 
 TEST_F(LateAnswerTest, GivenTwice_IsSentOnce) {

@@ -54,8 +54,8 @@ class SceneHostTest : public RenderLoopTest {
     void begin(uint64_t scene_bytes = 1000) {
         SceneHostOptions options;
         options.offers = [this](const std::string& id) -> std::optional<uint64_t> {
-            return id.size() == 1 && id >= "a" && id <= "e" ? std::optional(version_.load())
-                                                            : std::nullopt;
+            const bool offered = id.size() == 1 && id >= "a" && id <= "e" && !withdrawn_;
+            return offered ? std::optional(version_.load()) : std::nullopt;
         };
         options.read = [this](const std::string& id,
                               const ProgressReport& report) -> Result<ReadScene> {
@@ -150,6 +150,7 @@ class SceneHostTest : public RenderLoopTest {
     }
 
     std::atomic<uint64_t> version_ = 1;
+    std::atomic<bool> withdrawn_ = false; // nothing is offered any more
     std::atomic<int> begun_reads_ = 0;
     std::atomic<int> read_count_ = 0;
     std::atomic<int> called_off_ = 0;
@@ -469,6 +470,20 @@ TEST_F(SceneHostTest, ChangedFile_IsReadAnewAndTheOldOneStaysForWhoHasIt) {
     EXPECT_EQ(read_count_, 2);
     EXPECT_EQ(device_->live_scenes, 2);
     EXPECT_EQ(load("a"), after);
+}
+
+TEST_F(SceneHostTest, WithdrawnScene_LeavesOnceNobodyHoldsIt) {
+    begin();
+    auto held = load("a");
+    load("b");
+    ASSERT_EQ(host_->counts().resident, 3U);
+    withdrawn_ = true;
+    host_->tidy();
+    EXPECT_TRUE(comes([&] { return host_->counts().resident == 2; }));
+    EXPECT_EQ(held->scene.name, "a");
+    held.reset(); // which wakes nobody
+    EXPECT_TRUE(comes([&] { return host_->counts().resident == 1; }));
+    EXPECT_EQ(host_->counts().evicted_total, 0U);
 }
 
 TEST_F(SceneHostTest, Stop_EndsScenesBeforeTheirDevice) {

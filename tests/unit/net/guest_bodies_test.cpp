@@ -1,0 +1,121 @@
+#include "net/guest_bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace froxel::net {
+namespace {
+
+namespace http = boost::beast::http;
+using session::Account;
+
+constexpr uint64_t kMost = 1000;
+
+class GuestBodiesTest : public testing::Test {
+  protected:
+    HttpSite::Received receive(const std::optional<Account>& account, uint64_t size_bytes) {
+        return bodies_->receive(account, size_bytes, [this](auto scene, const auto& /*done*/) {
+            const auto found = shelf_->find(scene->id());
+            names_.push_back(found->files.front().name);
+            held_ = std::move(scene);
+            return [] {};
+        });
+    }
+    static http::status statusOf(const HttpSite::Received& received) {
+        const auto* refused = std::get_if<Response>(&received);
+        return refused != nullptr ? refused->result() : http::status::ok;
+    }
+    // What the body is refused with; ok: it is taken to its end.
+    http::status send(std::string_view text) {
+        auto received = receive({}, text.size());
+        auto& body = std::get<std::unique_ptr<RequestBody>>(received);
+        if (const auto refused = body->take(std::as_bytes(std::span(text)))) {
+            EXPECT_NE(refused->body().find("expected a GLB or glTF file"), std::string::npos);
+            return refused->result();
+        }
+        const auto call_off = body->complete([](const LateAnswer&) {});
+        return http::status::ok;
+    }
+
+    std::shared_ptr<guest::GuestShelf> shelf_ = std::make_shared<guest::GuestShelf>();
+    std::shared_ptr<GuestBodies> bodies_ = std::make_shared<GuestBodies>(shelf_, kMost);
+    std::vector<std::string> names_;
+    guest::GuestShelf::SharedHold held_;
+};
+
+TEST_F(GuestBodiesTest, Kind_IsByTheFirstBytes) {
+    EXPECT_EQ(send("glTF and more"), http::status::ok);
+    EXPECT_EQ(send("{}"), http::status::ok);
+    EXPECT_EQ(send("\xEF\xBB\xBF \n{\"asset\":{}}"), http::status::ok);
+    EXPECT_EQ(names_, (std::vector<std::string>{"scene.glb", "scene.gltf", "scene.gltf"}));
+    for (const char* other : {"PK\x03\x04", "<html>", "glT", "  ", "solid ", "\x89PNG"}) {
+        EXPECT_EQ(send(other), http::status::unsupported_media_type) << other;
+    }
+}
+
+TEST_F(GuestBodiesTest, Size_IsJudgedBeforeAByteCame) {
+    EXPECT_EQ(statusOf(receive({}, 0)), http::status::length_required);
+    EXPECT_EQ(statusOf(receive({}, 1)), http::status::ok);
+    EXPECT_EQ(statusOf(receive({}, kMost)), http::status::ok);
+    EXPECT_EQ(statusOf(receive({}, kMost + 1)), http::status::payload_too_large);
+    EXPECT_EQ(statusOf(receive({}, UINT64_MAX)), http::status::payload_too_large);
+    bodies_ = std::make_shared<GuestBodies>(shelf_, 0);
+    EXPECT_EQ(statusOf(receive({}, 1)), http::status::forbidden);
+}
+
+// Counted as they come, so that nobody is kept out by who sends nothing.
+TEST_F(GuestBodiesTest, Room_IsSharedByAccounts_AndComesBack) {
+    std::vector<HttpSite::Received> received;
+    const std::string text = "glTF" + std::string(kMost - 4, '.');
+    const auto add = [&](const std::optional<Account>& account) {
+        received.push_back(receive(account, kMost));
+        if (auto* body = std::get_if<std::unique_ptr<RequestBody>>(&received.back())) {
+            EXPECT_FALSE((*body)->take(std::as_bytes(std::span(text))));
+        }
+        return statusOf(received.back());
+    };
+    const Account a{"192.0.2.1"};
+    std::vector<HttpSite::Received> silent;
+    for (int i = 0; i < 10; ++i) {
+        silent.push_back(receive(a, kMost));
+        EXPECT_EQ(statusOf(silent.back()), http::status::ok);
+    }
+    EXPECT_EQ(add(a), http::status::ok);
+    EXPECT_EQ(add(a), http::status::ok);
+    EXPECT_EQ(add(a), http::status::too_many_requests);
+    EXPECT_EQ(add(Account{"192.0.2.2"}), http::status::ok);
+    EXPECT_EQ(add({}), http::status::ok);
+    EXPECT_EQ(add({}), http::status::service_unavailable);
+    // Those that were let in come too late.
+    auto& late = std::get<std::unique_ptr<RequestBody>>(silent.front());
+    const auto refused = late->take(std::as_bytes(std::span(text)));
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->result(), http::status::too_many_requests);
+    received.clear();
+    EXPECT_EQ(add(a), http::status::ok);
+}
+
+// As long as the scene is there, and not as long as the body is read.
+TEST_F(GuestBodiesTest, Room_IsTheScenes) {
+    const std::string text = "glTF" + std::string(kMost - 4, '.');
+    EXPECT_EQ(send(text), http::status::ok);
+    const auto begin = [&] { return receive({}, kMost); };
+    std::vector<HttpSite::Received> received;
+    for (uint64_t i = 1; i < GuestBodies::kAtOnce; ++i) {
+        received.push_back(begin());
+        auto& body = std::get<std::unique_ptr<RequestBody>>(received.back());
+        EXPECT_FALSE(body->take(std::as_bytes(std::span(text))));
+    }
+    EXPECT_EQ(statusOf(begin()), http::status::service_unavailable);
+    held_.reset();
+    EXPECT_EQ(statusOf(begin()), http::status::ok);
+}
+
+} // namespace
+} // namespace froxel::net
