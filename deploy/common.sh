@@ -16,7 +16,7 @@ build_packages=(
     libglm-dev 'libboost-url1.81-dev|libboost-url-dev' libspdlog-dev libcli11-dev
     libturbojpeg0-dev libpng-dev libwebp-dev libzstd-dev wabt libopenexr-dev libstb-dev libvpx-dev
     libprotobuf-dev protobuf-compiler prometheus-cpp-dev libtomlplusplus-dev libssl-dev
-    libseccomp-dev python3 ca-certificates
+    libseccomp-dev libpoco-dev python3 ca-certificates
 )
 run_packages=(mesa-vulkan-drivers)
 test_packages=(

@@ -80,7 +80,10 @@ SceneMaker::makeGuest(const std::shared_ptr<const guest::GuestScene>& brought,
     return finish(brought->files.front().name,
                   loadGuestScene(brought, report,
                                  {.limits = {memory_bytes},
-                                  .process = {.sandbox = options_.sandbox, .cpu_s = kGuestCpu_s}}));
+
+                                  .process = {.sandbox = options_.sandbox,
+                                              .cpu_s = kGuestCpu_s,
+                                              .form_boundary = brought->form_boundary}}));
 }
 
 Result<stream::ReadScene> SceneMaker::finish(const std::string& source,

@@ -17,6 +17,7 @@ struct Task {
     std::string file; // names the scene in messages
     uint64_t memory_bytes = 0;
     uint32_t cpu_s = 0;
+    std::string form_boundary{}; // the scene's file is a form, see FormParts; empty: it is none
 };
 enum class Answer : uint8_t { kOpened, kMissing, kWrongPath, kFailed };
 struct FileAnswer {
@@ -41,7 +42,7 @@ struct Values<Answer> : ValuesFrom<Answer, Answer::kOpened, Answer::kFailed> {};
 template <>
 struct Values<Say> : ValuesFrom<Say, Say::kIsolated, Say::kError> {};
 FROXEL_FIELDS(Isolation, 0, v.landlock, v.seccomp)
-FROXEL_FIELDS(Task, 0, v.file, v.memory_bytes, v.cpu_s)
+FROXEL_FIELDS(Task, 0, v.file, v.memory_bytes, v.cpu_s, v.form_boundary)
 FROXEL_FIELDS(FileAnswer, 0, v.answer, v.text, v.size_bytes)
 FROXEL_FIELDS(Message, 0, v.say, v.text, v.user, v.fraction, v.isolation, v.pool_bytes)
 

@@ -2,6 +2,7 @@
 
 #include "bake/channel.h"
 #include "bake/flat_scene.h"
+#include "bake/form_parts.h"
 #include "bake/isolation.h"
 #include "core/write_all.h"
 #include "gltf/file_opener.h"
@@ -12,6 +13,8 @@
 #include <atomic>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 #include <sys/mman.h>
 #include <unistd.h>
 #include <utility>
@@ -125,14 +128,20 @@ uint64_t addressBytes(uint64_t memory_bytes) {
 }
 
 Message read(Channel& channel, const Task& task, Output& output) {
-    RemoteOpener opener(channel, output);
+    RemoteOpener remote(channel, output);
     const auto report = [&](const Progress& now) {
         return channel.send(
             Message{.say = Say::kProgress, .text = now.stage, .fraction = now.fraction});
     };
     uint64_t pool_bytes = 0;
     const auto scene = gltf::resultOf(task.file, [&] {
-        auto loaded = gltf::loadFrom(opener, task.file, report, task.memory_bytes);
+        std::optional<FormParts> form;
+        if (!task.form_boundary.empty()) {
+            form.emplace(remote, task.form_boundary);
+        }
+        gltf::FileOpener& opener = form ? static_cast<gltf::FileOpener&>(*form) : remote;
+        const std::string& name = form ? form->sceneName() : task.file;
+        auto loaded = gltf::loadFrom(opener, name, report, task.memory_bytes);
         if (loaded) {
             pool_bytes = output.write(*loaded);
         }

@@ -181,7 +181,8 @@ class Reading {
 
     // Until the reader says that the scene is there: how many bytes of images lie before it.
     Result<uint64_t> run(uint64_t memory_bytes) {
-        if (!channel_.send(Task{file_.filename().string(), memory_bytes, process_.cpu_s})) {
+        if (!channel_.send(Task{file_.filename().string(), memory_bytes, process_.cpu_s,
+                                process_.form_boundary})) {
             return ended();
         }
         while (true) {

@@ -22,6 +22,7 @@ struct ReaderProcess {
     Sandbox sandbox = Sandbox::kOff;
     std::filesystem::path binary = "/proc/self/exe"; // `binary` bake reads
     uint32_t cpu_s = 3600;                           // that it may take, of all threads
+    std::string form_boundary{};                     // as Task has it
 };
 
 // As gltf::load(), whose messages it gives. Also of a reader that crashes, is killed, or hands back

@@ -11,9 +11,10 @@
 namespace froxel::gltf {
 
 struct OpenedFile {
-    FileDescriptor descriptor; // a regular file, for reading from its begin
+    FileDescriptor descriptor; // a regular file, for reading
     uint64_t size_bytes = 0;
-    std::string shown; // its name as messages have it, printable
+    std::string shown{}; // its name as messages have it, printable
+    uint64_t begin = 0;  // where in it the bytes are
 };
 
 // Of one thread. All throw Failure: Unusable where there is no such file, or none that may be read.

@@ -37,7 +37,8 @@ Bytes SceneFiles::readAll(const OpenedFile& file, const std::string& user) {
     while (done < size) {
         progress_.ask();
         const ssize_t got =
-            ::read(file.descriptor.get(), bytes.data() + done, std::min(size - done, kReadAtOnce));
+            ::pread(file.descriptor.get(), bytes.data() + done, std::min(size - done, kReadAtOnce),
+                    static_cast<off_t>(file.begin + done));
         if (got < 0 && errno == EINTR) {
             continue;
         }

@@ -17,7 +17,8 @@ struct GuestFile {
 };
 
 struct GuestScene {
-    std::vector<GuestFile> files;       // at least one: the scene's own comes first
+    std::vector<GuestFile> files; // at least one: the scene's own comes first
+    std::string form_boundary{};  // the first is a form (RFC 7578) that has all; empty: it is none
     std::shared_ptr<const void> held{}; // let go with it: the room that it takes
 };
 

@@ -3,6 +3,8 @@
 #include "core/text.h"
 #include "guest/memory_file.h"
 
+#include <boost/beast/core/string.hpp>
+#include <boost/beast/http/rfc7230.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -39,6 +41,21 @@ std::optional<Kind> kindOf(std::string_view begin) {
     const size_t first = begin.find_first_not_of(kBlank);
     return first != std::string_view::npos && begin[first] == '{' ? std::optional(Kind::kGltf)
                                                                   : std::nullopt;
+}
+
+// Of the parts of a form (RFC 7578); none: it is no form.
+std::optional<std::string> boundaryOf(std::string_view content_type) {
+    constexpr std::string_view kForm = "multipart/form-data";
+    if (!boost::beast::iequals(content_type.substr(0, kForm.size()), kForm)) {
+        return {};
+    }
+    content_type.remove_prefix(kForm.size());
+    for (const auto& [name, value] : http::param_list({content_type.data(), content_type.size()})) {
+        if (boost::beast::iequals(name, "boundary")) {
+            return std::string(value);
+        }
+    }
+    return std::string();
 }
 
 } // namespace
@@ -83,12 +100,13 @@ class GuestBodies::Body final : public RequestBody {
     Body(std::shared_ptr<guest::GuestShelf> shelf,
          std::shared_ptr<Room> room,
          guest::MemoryFile file,
+         std::string form_boundary,
          Then then)
         : shelf_(std::move(shelf)), room_(std::move(room)), file_(std::move(file)),
-          then_(std::move(then)) {}
+          form_boundary_(std::move(form_boundary)), then_(std::move(then)) {}
 
     std::optional<Response> take(std::span<const std::byte> bytes) override {
-        if (!kind_ && !bytes.empty()) {
+        if (form_boundary_.empty() && !kind_ && !bytes.empty()) {
             const std::string_view begin(reinterpret_cast<const char*>(bytes.data()), bytes.size());
             kind_ = kindOf(begin);
             if (!kind_) {
@@ -107,12 +125,15 @@ class GuestBodies::Body final : public RequestBody {
     }
 
     HttpSite::CallOff complete(std::function<void(LateAnswer)> done) override {
-        auto file = std::move(file_).complete(kind_ == Kind::kGlb ? "scene.glb" : "scene.gltf");
+        auto file = std::move(file_).complete(!form_boundary_.empty() ? "form"
+                                              : kind_ == Kind::kGlb   ? "scene.glb"
+                                                                      : "scene.gltf");
         if (!file) {
             done({putOff(http::status::service_unavailable, "capacity", file.error().message)});
             return [] {};
         }
         guest::GuestScene scene;
+        scene.form_boundary = form_boundary_;
         scene.files.push_back(std::move(*file));
         scene.held = std::move(room_);
         return then_(shelf_->put(std::move(scene)), std::move(done));
@@ -122,11 +143,13 @@ class GuestBodies::Body final : public RequestBody {
     const std::shared_ptr<guest::GuestShelf> shelf_;
     std::shared_ptr<Room> room_;
     guest::MemoryFile file_;
+    const std::string form_boundary_; // empty: it is no form
     const Then then_;
     std::optional<Kind> kind_;
 };
 
 HttpSite::Received GuestBodies::receive(const std::optional<session::Account>& account,
+                                        std::string_view content_type,
                                         uint64_t size_bytes,
                                         Then then) {
     if (most_bytes_ == 0) {
@@ -142,6 +165,13 @@ HttpSite::Received GuestBodies::receive(const std::optional<session::Account>& a
             http::status::payload_too_large, "out_of_range",
             fmt::format("has {} bytes; expected at most {} (--max-body)", size_bytes, most_bytes_));
     }
+    const auto boundary = boundaryOf(content_type);
+    constexpr size_t kLongestBoundary = 70; // RFC 2046, 5.1.1
+    if (boundary && (boundary->empty() || boundary->size() > kLongestBoundary)) {
+        return refused(
+            http::status::bad_request, "malformed",
+            fmt::format("is a form without a boundary of 1 to {} characters", kLongestBoundary));
+    }
     {
         const std::lock_guard lock(mutex_);
         if (auto refused = whyNoRoom(account, size_bytes)) {
@@ -153,7 +183,7 @@ HttpSite::Received GuestBodies::receive(const std::optional<session::Account>& a
         return putOff(http::status::service_unavailable, "capacity", file.error().message);
     }
     return std::make_unique<Body>(shelf_, std::make_shared<Room>(shared_from_this(), account),
-                                  std::move(*file), std::move(then));
+                                  std::move(*file), boundary.value_or(""), std::move(then));
 }
 
 std::optional<Response> GuestBodies::whyNoRoom(const std::optional<session::Account>& account,

@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string_view>
 
 namespace froxel::net {
 
@@ -26,12 +27,15 @@ class GuestBodies : public std::enable_shared_from_this<GuestBodies> {
     GuestBodies(std::shared_ptr<guest::GuestShelf> shelf, uint64_t most_bytes)
         : shelf_(std::move(shelf)), most_bytes_(most_bytes) {}
 
-    // As HttpSite::receive(). `then` is called with the scene when all of it is there, and does as
+    // As HttpSite::receive(), of a request with this Content-Type, which matters if it is a form.
+    // `then` is called with the scene when all of it is there, and does as
     // HttpSite::answerLater(). No account: the limit of one account does not hold.
     using Then = std::function<HttpSite::CallOff(guest::GuestShelf::SharedHold scene,
                                                  std::function<void(LateAnswer)> done)>;
-    [[nodiscard]] HttpSite::Received
-    receive(const std::optional<session::Account>& account, uint64_t size_bytes, Then then);
+    [[nodiscard]] HttpSite::Received receive(const std::optional<session::Account>& account,
+                                             std::string_view content_type,
+                                             uint64_t size_bytes,
+                                             Then then);
 
   private:
     class Body;

@@ -290,7 +290,7 @@ HttpSite::Received guestStill(const Asked& asked, uint64_t size_bytes) {
         caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
     StillAnswers::Asked still{asked.request, std::string(asked.path), caller};
     return asked.site->guest_bodies->receive(
-        account, size_bytes,
+        account, viewOf(asked.request[http::field::content_type]), size_bytes,
         [site = asked.site, still = std::move(still)](auto scene, const Done& done) {
             auto asked_of = still;
             asked_of.guest = std::move(scene);

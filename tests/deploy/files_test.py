@@ -577,7 +577,7 @@ class Files(unittest.TestCase):
 # Debian's package of what CMakeLists.txt ask for, as deploy/common.sh names it; None: comes with another.
 PACKAGES = {
     "Boost": "libboost-url1.81-dev|libboost-url-dev", "CLI11": "libcli11-dev", "GTest": "libgtest-dev",
-    "OpenEXR": "libopenexr-dev", "OpenSSL": "libssl-dev", "PNG": "libpng-dev", "PkgConfig": "pkg-config",
+    "OpenEXR": "libopenexr-dev", "OpenSSL": "libssl-dev", "PNG": "libpng-dev", "PkgConfig": "pkg-config", "Poco": "libpoco-dev",
     "Protobuf": "libprotobuf-dev", "Python3": "python3", "Threads": None, "TinyGLTF": "libtinygltf-dev",
     "Vulkan": "libvulkan-dev", "ZLIB": None, "benchmark": "libbenchmark-dev", "draco": "libdraco-dev",
     "glm": "libglm-dev", "glslangValidator": "glslang-tools", "libturbojpeg": "libturbojpeg0-dev",

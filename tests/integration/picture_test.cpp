@@ -188,11 +188,12 @@ TEST(Still, OfAPostedScene_IsTheRenderedPicture_ToTheBit) {
 
     ServerProcess server({"--size", "64x64", "--lights", "5"});
     const uint16_t port = server.port().value();
-    const auto post = [&](const std::string& query, const std::string& scene) {
+    const auto post = [&](const std::string& query, const std::string& scene,
+                          const std::string& fields = "") {
         return httpExchange(port, "POST /render?" + query +
-                                      " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n"
-                                      "Content-Length: " +
-                                      std::to_string(scene.size()) + "\r\n\r\n" + scene);
+                                      " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" +
+                                      fields + "Content-Length: " + std::to_string(scene.size()) +
+                                      "\r\n\r\n" + scene);
     };
     const std::string view = "format=png&look=rainbow&size=320x180&lights=100&light_radius=3&"
                              "renderer=forward_plus&light_time=1";
@@ -200,6 +201,13 @@ TEST(Still, OfAPostedScene_IsTheRenderedPicture_ToTheBit) {
     ASSERT_EQ(statusOf(answer), 200) << answer.substr(0, 1000);
     EXPECT_EQ(decodePng(bodyOf(answer)), wanted);
     EXPECT_EQ(answer.find("ETag"), std::string::npos);
+    const std::string form = "--x\r\nContent-Disposition: form-data; name=\"scene\"; "
+                             "filename=\"a.glb\"\r\n\r\n" +
+                             body + "\r\n--x--\r\n";
+    const std::string of_form =
+        post(view, form, "Content-Type: multipart/form-data; boundary=x\r\n");
+    ASSERT_EQ(statusOf(of_form), 200) << of_form.substr(0, 1000);
+    EXPECT_EQ(bodyOf(of_form), bodyOf(answer));
 
     const std::string broken = post("size=64x64", body.substr(0, body.size() / 2));
     EXPECT_EQ(statusOf(broken), 400);

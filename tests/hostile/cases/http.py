@@ -134,10 +134,15 @@ BROKEN = {
 }
 
 
-async def post(arena, body, size=None, address=None):
+FORM = "Content-Type: multipart/form-data; boundary=x\r\n"
+BROKEN_FORMS = (b"--x\r\n" * 1000, b"--x\r\n" + b"h" * 10_000 + b": 1\r\n\r\n",
+                b'--x\r\nContent-Disposition: form-data; filename="../../a.glb"\r\n\r\nglTF\r\n--x--', b"--x--\r\n")
+
+
+async def post(arena, body, size=None, address=None, fields=""):
     reader, writer = await arena.connect(*([address] if address else []))
     try:
-        writer.write(f"POST /render?size=64x64 HTTP/1.1\r\nHost: localhost\r\n"
+        writer.write(f"POST /render?size=64x64 HTTP/1.1\r\nHost: localhost\r\n{fields}"
                      f"Content-Length: {len(body) if size is None else size}\r\n\r\n".encode() + body)
         head = await reader.readuntil(b"\r\n\r\n")
         status = int(head.split()[1])
@@ -152,9 +157,9 @@ async def post(arena, body, size=None, address=None):
 
 @case(clients=8, seconds=10, needs=("HTTP 400",), newcomer=True, most=JOINS)
 async def broken_scenes_posted(arena):
-    """Posts files that are broken in six ways, as fast as they are refused."""
-    for body in itertools.cycle(BROKEN.values()):
-        await post(arena, body)
+    """Posts files that are broken in six ways and forms in four, as fast as they are refused."""
+    for body in itertools.cycle((*BROKEN.values(), *BROKEN_FORMS)):
+        await post(arena, body, fields=FORM if body in BROKEN_FORMS else "")
 
 
 @case(clients=16, seconds=14, needs=("HTTP 408", "HTTP 200"), newcomer=True,

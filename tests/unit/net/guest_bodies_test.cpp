@@ -19,21 +19,24 @@ constexpr uint64_t kMost = 1000;
 
 class GuestBodiesTest : public testing::Test {
   protected:
-    HttpSite::Received receive(const std::optional<Account>& account, uint64_t size_bytes) {
-        return bodies_->receive(account, size_bytes, [this](auto scene, const auto& /*done*/) {
+    HttpSite::Received receive(const std::optional<Account>& account,
+                               uint64_t size_bytes,
+                               std::string_view content_type = "") {
+        const auto then = [this](auto scene, const auto& /*done*/) {
             const auto found = shelf_->find(scene->id());
-            names_.push_back(found->files.front().name);
+            names_.push_back(found->files.front().name + found->form_boundary);
             held_ = std::move(scene);
             return [] {};
-        });
+        };
+        return bodies_->receive(account, content_type, size_bytes, then);
     }
     static http::status statusOf(const HttpSite::Received& received) {
         const auto* refused = std::get_if<Response>(&received);
         return refused != nullptr ? refused->result() : http::status::ok;
     }
     // What the body is refused with; ok: it is taken to its end.
-    http::status send(std::string_view text) {
-        auto received = receive({}, text.size());
+    http::status send(std::string_view text, std::string_view content_type = "") {
+        auto received = receive({}, text.size(), content_type);
         auto& body = std::get<std::unique_ptr<RequestBody>>(received);
         if (const auto refused = body->take(std::as_bytes(std::span(text)))) {
             EXPECT_NE(refused->body().find("expected a GLB or glTF file"), std::string::npos);
@@ -56,6 +59,18 @@ TEST_F(GuestBodiesTest, Kind_IsByTheFirstBytes) {
     EXPECT_EQ(names_, (std::vector<std::string>{"scene.glb", "scene.gltf", "scene.gltf"}));
     for (const char* other : {"PK\x03\x04", "<html>", "glT", "  ", "solid ", "\x89PNG"}) {
         EXPECT_EQ(send(other), http::status::unsupported_media_type) << other;
+    }
+}
+
+TEST_F(GuestBodiesTest, Form_IsTakenWithItsBoundary) {
+    EXPECT_EQ(send("--a b\r\n", "multipart/form-data; boundary=\"a b\""), http::status::ok);
+    EXPECT_EQ(send("--x", "Multipart/Form-Data;charset=utf-8;Boundary=x"), http::status::ok);
+    EXPECT_EQ(send("glTF", "application/x-www-form-urlencoded"), http::status::ok);
+    EXPECT_EQ(names_, (std::vector<std::string>{"forma b", "formx", "scene.glb"}));
+    for (const std::string& without :
+         {std::string("multipart/form-data"), std::string("multipart/form-data; boundary="),
+          "multipart/form-data; boundary=" + std::string(71, 'x')}) {
+        EXPECT_EQ(statusOf(receive({}, 1, without)), http::status::bad_request) << without;
     }
 }
 
