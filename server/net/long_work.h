@@ -27,6 +27,11 @@ class LongWork {
     LongWork(const LongWork&) = delete;
     LongWork& operator=(const LongWork&) = delete;
 
+    // Has `work` done, which must not throw. What has not begun at the end is never done.
+    template <class Work>
+    void post(Work work) {
+        boost::asio::post(io_, std::move(work));
+    }
     // Has `work` done, then `then(its result, what it took)` on `home`, which goes on meanwhile.
     // `work` must not throw.
     template <class Executor, class Work, class Then>

@@ -51,8 +51,8 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& lon
     site->request_limits = std::make_shared<RequestLimits>();
     site->scenes = std::make_shared<const SceneListing>(options.catalogue, site->service);
     site->still_desk = std::make_shared<still::StillDesk>(options.stills);
-    site->stills =
-        std::make_shared<StillAnswers>(site->still_desk, options.catalogue, site->service);
+    site->stills = std::make_shared<StillAnswers>(site->still_desk, options.catalogue,
+                                                  site->service, long_work);
     site->guest_bodies = std::make_shared<GuestBodies>(options.guests, options.guest_body_bytes);
     site->service->subscribe(site->stills);
     site->metrics->watchStills([desk = site->still_desk] { return desk->counts(); });

@@ -3,14 +3,13 @@
 #include "core/text.h"
 #include "net/request_form.h"
 #include "net/scene_listing.h"
+#include "net/still_series.h"
 #include "session/state_message.h"
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <array>
 #include <random>
-#include <set>
 #include <utility>
 
 namespace froxel::net {
@@ -19,20 +18,6 @@ namespace http = boost::beast::http;
 
 namespace {
 
-struct Format {
-    std::string_view name;
-    settings::Codec codec;
-    std::string_view content_type;
-};
-
-// The first where none is named.
-constexpr std::array kFormats{
-    Format{"jpg", settings::Codec::kJpeg, "image/jpeg"},
-    Format{"png", settings::Codec::kPng, "image/png"},
-    Format{"exr", settings::Codec::kExr, "image/x-exr"},
-    Format{"pfm", settings::Codec::kPfm, "image/x-portable-floatmap"},
-};
-
 // While the first scene is loaded.
 constexpr Seconds kPatience = still::StillLimits().patience;
 constexpr size_t kMostEarly = still::StillLimits().waiting;
@@ -40,10 +25,6 @@ constexpr ptrdiff_t kMostEarlyOfAccount = still::StillLimits().per_account;
 
 std::string_view viewOf(boost::beast::string_view text) {
     return {text.data(), text.size()};
-}
-
-const Format& formatOf(settings::Codec codec) {
-    return *std::ranges::find(kFormats, codec, &Format::codec);
 }
 
 Response
@@ -110,9 +91,10 @@ std::string_view sceneOfThumbnail(std::string_view path) {
 
 StillAnswers::StillAnswers(std::shared_ptr<still::StillDesk> desk,
                            std::shared_ptr<const catalogue::Catalogue> catalogue,
-                           std::shared_ptr<const Service> service)
+                           std::shared_ptr<const Service> service,
+                           LongWork& long_work)
     : desk_(std::move(desk)), catalogue_(std::move(catalogue)), service_(std::move(service)),
-      run_(numberText(std::random_device()())) {}
+      long_work_(long_work), run_(numberText(std::random_device()())) {}
 
 bool StillAnswers::has(std::string_view path) {
     return path == kStillPath || !sceneOfThumbnail(path).empty();
@@ -132,53 +114,39 @@ bool StillAnswers::lasts(const Request& request, const still::StillRequest& stil
     return offered && viewOf(request.target()).ends_with(fmt::format("?v={:x}", offered->version));
 }
 
-std::optional<Response> StillAnswers::read(const Asked& asked, still::StillRequest& still) const {
-    still.scene = sceneOfThumbnail(asked.path);
-    still.thumbnail = !still.scene.empty();
-    if (still.thumbnail) {
-        still.view = {
-            {"size", fmt::format("{}x{}", kThumbnailSize.width_px, kThumbnailSize.height_px)}};
-        return {};
+std::variant<WantedStill, Response> StillAnswers::read(const Asked& asked) const {
+    if (const auto scene = sceneOfThumbnail(asked.path); !scene.empty()) {
+        return thumbnailOf(scene, kThumbnailSize);
     }
     const auto target = targetOf(asked.request);
     if (!target) {
         return refused(http::status::bad_request, "malformed", "", "the address is malformed");
     }
-    std::set<std::string> given;
-    for (const auto& said : target->params()) {
-        if (said.key.empty() && !said.has_value) { // nothing between two &
-            continue;
-        }
-        if (!given.insert(said.key).second) {
-            return refused(http::status::bad_request, "out_of_range", printable(said.key),
-                           "is given twice");
-        }
-        if (said.key == "scene") {
-            if (asked.guest) {
-                return refused(http::status::bad_request, "unsupported", "scene",
-                               "is given in the address and in the body; expected one of them");
-            }
-            still.scene = said.value;
-        } else if (said.key == "format") {
-            const auto format = std::ranges::find(kFormats, said.value, &Format::name);
-            if (format == kFormats.end()) {
-                std::array<std::string_view, kFormats.size()> names;
-                std::ranges::transform(kFormats, names.begin(), &Format::name);
-                return refused(http::status::bad_request, "unsupported", "format",
-                               fmt::format("is \"{}\"; it must be {}", printable(said.value),
-                                           fmt::join(names, ", ")));
-            }
-            still.codec = format->codec;
-        } else {
-            still.view.push_back({said.key, said.value});
-        }
+    auto wanted = readStillAddress(*target, asked.guest != nullptr);
+    if (auto* read = std::get_if<WantedStill>(&wanted); read != nullptr && asked.guest) {
+        read->still.scene = asked.guest->id();
+        read->still.kept = false;
     }
-    std::ranges::sort(still.view, {}, &still::Entry::name); // none stands for another order
-    if (asked.guest) {
-        still.scene = asked.guest->id();
-        still.kept = false;
+    return wanted;
+}
+
+std::optional<session::Account> StillAnswers::accountOf(const Caller& caller) {
+    return caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
+}
+
+std::string
+StillAnswers::tagOf(const Serving& serving, const Asked& asked, const WantedStill& wanted) const {
+    const still::StillRequest& still = wanted.still;
+    std::string tag = serving.context->server_version + "\n" + serving.context->device_name + "\n" +
+                      (asked.guest ? still.scene : sceneTag(still.scene)) + "\n" +
+                      std::string(wanted.format->name);
+    for (const auto& [name, text] : still.view) {
+        tag += "\n" + name + "=" + text;
     }
-    return {};
+    for (const still::NamedView* view : wanted.views) {
+        tag += "\nviews=" + std::string(view->name);
+    }
+    return tag;
 }
 
 HttpSite::CallOff StillAnswers::answer(const Asked& asked, const Done& done) {
@@ -276,54 +244,83 @@ void StillAnswers::close() {
 HttpSite::CallOff
 StillAnswers::draw(const Serving& serving, const Asked& asked, const Done& done) const {
     const auto nothing = [] {};
-    const auto& [request, path, caller, shared, guest] = asked;
-    still::StillRequest still;
-    if (auto refusal = read(asked, still)) {
+    auto read_address = read(asked);
+    if (auto* refusal = std::get_if<Response>(&read_address)) {
         done({std::move(*refusal)});
         return nothing;
     }
-    const Format& format = formatOf(still.codec);
-    still.tag = serving.context->server_version + "\n" + serving.context->device_name + "\n" +
-                (guest ? still.scene : sceneTag(still.scene)) + "\n" + std::string(format.name);
-    for (const auto& [name, text] : still.view) {
-        still.tag += "\n" + name + "=" + text;
-    }
-    const std::string etag = etagOf(still.tag);
-    const std::string caching = std::string(shared ? "" : "private, ") +
-                                (lasts(request, still) ? "max-age=86400" : "no-cache");
+    WantedStill& wanted = std::get<WantedStill>(read_address);
+    wanted.still.tag = tagOf(serving, asked, wanted);
+    const std::string etag = etagOf(wanted.still.tag);
+    const std::string caching = std::string(asked.shared ? "" : "private, ") +
+                                (lasts(asked.request, wanted.still) ? "max-age=86400" : "no-cache");
     // The next one of a scene that comes with the request is another one.
-    const auto tagged = [etag, caching, once = guest != nullptr](Response response) {
+    const auto tagged = [etag, caching, once = asked.guest != nullptr](Response response) {
         if (!once) {
             response.set(http::field::etag, etag);
             response.set(http::field::cache_control, caching);
         }
         return response;
     };
-    if (!guest && hasAlready(request, etag)) {
-        done({tagged(makeResponse(http::status::not_modified, format.content_type, {}))});
+    if (!asked.guest && hasAlready(asked.request, etag)) {
+        done({tagged(makeResponse(http::status::not_modified, wanted.format->content_type, {}))});
         return nothing;
     }
+    return wanted.isSeries() ? drawSeries(serving, asked, std::move(wanted), tagged, done)
+                             : drawOne(serving, asked, std::move(wanted), tagged, done);
+}
+
+HttpSite::CallOff StillAnswers::drawOne(const Serving& serving,
+                                        const Asked& asked,
+                                        WantedStill wanted,
+                                        const Tagged& tagged,
+                                        const Done& done) const {
     // Of what there is nothing of yet; whether there will be is found out by drawing it.
-    const bool any = !guest && hasAnything(request);
-    const bool thumbnail = still.thumbnail;
-    const auto account =
-        caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
+    const bool any = !asked.guest && hasAnything(asked.request);
+    const bool thumbnail = wanted.still.thumbnail;
+    const auto type = wanted.format->content_type;
     const auto ticket = desk_->ask(
-        {serving.context, serving.port, serving.scenes}, std::move(still), account,
-        [done, tagged, &format, thumbnail, any, guest = guest](const still::StillOutcome& outcome) {
+        {serving.context, serving.port, serving.scenes}, std::move(wanted.still),
+        accountOf(asked.caller),
+        [done, tagged, type, thumbnail, any,
+         guest = asked.guest](const still::StillOutcome& outcome) {
             if (const auto* refusal = std::get_if<still::StillRefusal>(&outcome)) {
                 done({refusedBy(*refusal, thumbnail)});
-                return;
+            } else if (any) {
+                done({tagged(makeResponse(http::status::not_modified, type, {}))});
+            } else {
+                done(onItsWay(tagged(makeResponse(http::status::ok, type, {})),
+                              std::get<still::StillPicture>(outcome).bytes));
             }
-            if (any) {
-                done({tagged(makeResponse(http::status::not_modified, format.content_type, {}))});
-                return;
-            }
-            done(onItsWay(tagged(makeResponse(http::status::ok, format.content_type, {})),
-                          std::get<SharedBytes>(outcome)));
         },
         Clock::now());
     return [desk = desk_, ticket] { desk->cancel(ticket); };
+}
+
+HttpSite::CallOff StillAnswers::drawSeries(const Serving& serving,
+                                           const Asked& asked,
+                                           WantedStill wanted,
+                                           const Tagged& tagged,
+                                           const Done& done) const {
+    const auto type = wanted.format->content_type;
+    const auto sheet = wanted.format->facts ? std::nullopt : std::optional(wanted.format->codec);
+    const auto series = std::make_shared<StillSeries>(
+        StillSeries::Plan{std::move(wanted.views), std::move(wanted.still), sheet}, desk_,
+        long_work_, accountOf(asked.caller),
+        [done, tagged, type, any = !asked.guest && hasAnything(asked.request),
+         guest = asked.guest](StillSeries::Made made) {
+            if (const auto* refusal = std::get_if<still::StillRefusal>(&made)) {
+                done({refusedBy(*refusal, false)});
+            } else if (any) {
+                done({tagged(makeResponse(http::status::not_modified, type, {}))});
+            } else if (auto* text = std::get_if<std::string>(&made)) {
+                done({tagged(makeResponse(http::status::ok, type, std::move(*text)))});
+            } else {
+                done(onItsWay(tagged(makeResponse(http::status::ok, type, {})),
+                              std::get<SharedBytes>(made)));
+            }
+        });
+    return series->start({serving.context, serving.port, serving.scenes}, Clock::now());
 }
 
 } // namespace froxel::net

@@ -6,7 +6,9 @@
 #include "guest/guest_shelf.h"
 #include "net/caller.h"
 #include "net/http_site.h"
+#include "net/long_work.h"
 #include "net/service.h"
+#include "net/still_address.h"
 #include "still/still_desk.h"
 
 #include <functional>
@@ -16,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace froxel::net {
 
@@ -27,10 +30,11 @@ class StillAnswers final : public ServiceListener,
   public:
     static constexpr settings::Size kThumbnailSize{320, 180};
 
-    // `catalogue` may be null: the server has one scene of its own.
+    // `catalogue` may be null: the server has one scene of its own. `long_work` outlives it.
     StillAnswers(std::shared_ptr<still::StillDesk> desk,
                  std::shared_ptr<const catalogue::Catalogue> catalogue,
-                 std::shared_ptr<const Service> service);
+                 std::shared_ptr<const Service> service,
+                 LongWork& long_work);
 
     // Told when expire() is due next; any thread, must not block. Set before the first request.
     void setAlarm(std::function<void(TimePoint)> alarm) { alarm_ = std::move(alarm); }
@@ -71,8 +75,23 @@ class StillAnswers final : public ServiceListener,
     [[nodiscard]] std::optional<HttpSite::CallOff> waitForScene(std::shared_ptr<Early> early);
     [[nodiscard]] HttpSite::CallOff
     draw(const Serving& serving, const Asked& asked, const Done& done) const;
-    [[nodiscard]] std::optional<Response> read(const Asked& asked,
-                                               still::StillRequest& still) const;
+    [[nodiscard]] std::variant<WantedStill, Response> read(const Asked& asked) const;
+    // The caller's, where it has limits.
+    [[nodiscard]] static std::optional<session::Account> accountOf(const Caller& caller);
+    [[nodiscard]] std::string
+    tagOf(const Serving& serving, const Asked& asked, const WantedStill& wanted) const;
+    // How what was asked of the desk is answered, with these headers.
+    using Tagged = std::function<Response(Response)>;
+    [[nodiscard]] HttpSite::CallOff drawOne(const Serving& serving,
+                                            const Asked& asked,
+                                            WantedStill wanted,
+                                            const Tagged& tagged,
+                                            const Done& done) const;
+    [[nodiscard]] HttpSite::CallOff drawSeries(const Serving& serving,
+                                               const Asked& asked,
+                                               WantedStill wanted,
+                                               const Tagged& tagged,
+                                               const Done& done) const;
     [[nodiscard]] std::string sceneTag(const std::string& scene) const;
     // Whether the address itself goes by the scene's version, as the listing has it.
     [[nodiscard]] bool lasts(const Request& request, const still::StillRequest& still) const;
@@ -80,6 +99,7 @@ class StillAnswers final : public ServiceListener,
     const std::shared_ptr<still::StillDesk> desk_;
     const std::shared_ptr<const catalogue::Catalogue> catalogue_;
     const std::shared_ptr<const Service> service_;
+    LongWork& long_work_;
     const std::string run_; // another one each time that a server starts
     std::function<void(TimePoint)> alarm_ = [](TimePoint /*due*/) {};
     std::mutex mutex_;

@@ -146,8 +146,10 @@ StillDesk::Ticket StillDesk::ask(const StillSource& source,
                 return;
             }
             ++counts_.kept_total;
-            calls.emplace_back([answer = std::move(waiter.answer),
-                                held = unsent_->hold(bytes, account)] { answer(held); });
+            calls.emplace_back(
+                [answer = std::move(waiter.answer), held = unsent_->hold(bytes, account)] {
+                    answer(StillPicture{held});
+                });
             return;
         }
         add(source, std::move(request), std::move(waiter), now, calls);
@@ -432,7 +434,8 @@ void StillDesk::onDrawn(StillWorker& worker, session::ReadyFrame frame) {
         if (job->request.kept) {
             storeFor(job->request).keep(job->request.tag, frame.bytes);
         }
-        finish(job, frame.bytes, calls);
+        const auto& scene = job->state->scene ? job->state->scene : job->source.first;
+        finish(job, StillPicture{frame.bytes, scene, job->state->encoding}, calls);
         goOn(worker, Clock::now(), calls);
     });
 }
@@ -467,13 +470,13 @@ void StillDesk::finish(Jobs::iterator job, const StillOutcome& outcome, Calls& c
     if (const auto* refusal = std::get_if<StillRefusal>(&outcome)) {
         ++(refusal->retry_after ? counts_.put_off_total : counts_.refused_total);
     }
-    const auto* bytes = std::get_if<SharedBytes>(&outcome);
     for (Waiter& waiter : job->waiters) {
+        StillOutcome given = outcome;
+        if (auto* picture = std::get_if<StillPicture>(&given)) {
+            picture->bytes = unsent_->hold(picture->bytes, waiter.account);
+        }
         calls.emplace_back(
-            [answer = std::move(waiter.answer),
-             given = bytes == nullptr
-                         ? outcome
-                         : StillOutcome(unsent_->hold(*bytes, waiter.account))] { answer(given); });
+            [answer = std::move(waiter.answer), given = std::move(given)] { answer(given); });
     }
     jobs_.erase(job);
 }
@@ -495,6 +498,17 @@ void StillDesk::leave(StillWorker& worker) {
         worker.port->leave(worker.id);
     }
     std::erase_if(workers_, [&](const auto& other) { return other.get() == &worker; });
+}
+
+StillOutcome StillDesk::hold(const SharedBytes& bytes,
+                             const std::optional<session::Account>& account,
+                             TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    if (auto refusal = whyNotHeld(account, bytes->size(), now)) {
+        ++counts_.put_off_total;
+        return std::move(*refusal);
+    }
+    return StillPicture{unsent_->hold(bytes, account)};
 }
 
 void StillDesk::cancel(Ticket ticket) {

@@ -55,11 +55,18 @@ struct StillRefusal {
     std::optional<std::chrono::seconds> retry_after = {};
 };
 
-using StillOutcome = std::variant<SharedBytes, StillRefusal>;
+struct StillPicture {
+    SharedBytes bytes;
+    // What it was drawn of and how it was encoded; null where it was drawn for another one before.
+    session::SharedContext scene{};
+    settings::Encoding encoding{};
+};
+
+using StillOutcome = std::variant<StillPicture, StillRefusal>;
 
 struct StillLimits {
     size_t workers = 4;
-    size_t per_account = 8; // waited for
+    size_t per_account = 9; // waited for: a sheet of all named views
     size_t waiting = 64;    // by all
     // Of answers that are drawn or on their way; one alone may be larger. Of all_bytes an account
     // that has less of them has its share: others' answers have to go for it (Unsent::shrinkTo).
@@ -99,6 +106,9 @@ class StillDesk final : public session::SceneWaiter,
                const std::optional<session::Account>& account,
                Answer answer,
                TimePoint now);
+    // The bytes of an answer that was made of stills, counted as theirs, or why not now.
+    [[nodiscard]] StillOutcome
+    hold(const SharedBytes& bytes, const std::optional<session::Account>& account, TimePoint now);
     // Nobody waits for it any more. It may be answered meanwhile.
     void cancel(Ticket ticket);
     // Ends what was waited for too long, and workers that rest; sets off the alarm for when more is

@@ -7,6 +7,7 @@
 #include "session/proto_vec.h"
 #include "session/scene_change.h"
 #include "settings/value_text.h"
+#include "still/named_views.h"
 
 #include <algorithm>
 #include <array>
@@ -33,6 +34,7 @@ struct Asked {
     std::optional<uint32_t> material_variant;
     std::optional<settings::Size> size;
     std::optional<bool> frozen;
+    std::optional<glm::dvec3> toward_eye; // of a view that is named
     std::optional<glm::dvec3> eye;
     std::optional<glm::dvec3> target;
     std::optional<glm::dvec3> up;
@@ -97,8 +99,19 @@ Result<void> readSize(Asked& asked, std::string_view text) {
     return text.starts_with("auto@") ? Result<void>() : put(asked.size, settings::parseSize(text));
 }
 
+Result<void> readNamedView(Asked& asked, std::string_view text) {
+    const NamedView* view = findView(text);
+    if (view == nullptr) {
+        return Error{ErrorCode::kInvalidArgument,
+                     "is \"" + printable(std::string(text)) + "\"; it must be " + namesOfViews()};
+    }
+    asked.toward_eye = view->toward_eye;
+    return {};
+}
+
 constexpr std::array kRows{
     Row{"size", readSize},
+    Row{"view", readNamedView},
     Row{"eye", readPosition<&Asked::eye>},
     Row{"target", readPosition<&Asked::target>},
     Row{"up", readPosition<&Asked::up>},
@@ -285,6 +298,12 @@ viewOf(const session::SharedContext& scene, const Entries& entries, TimePoint no
     stand(*state, now, asked.lights.time_s.value_or(0));
     if (asked.animation.time_s) {
         apply(session::SetAnimation{{}, {}, asked.animation.time_s});
+    }
+    if (state && asked.toward_eye) {
+        state->settings.camera =
+            settings::overview(scene->first_view.sphere_world,
+                               settings::aspectOf(state->settings.size), *asked.toward_eye);
+        state->followed.reset();
     }
     if (state && asked.movesCamera()) {
         const auto camera = cameraCommand(asked, state->cameraAt(now));

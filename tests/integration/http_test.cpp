@@ -5,6 +5,7 @@
 #include "integration/ws_client.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <filesystem>
@@ -96,6 +97,43 @@ TEST_F(HttpTest, Still_IsAPictureWithATag) {
     EXPECT_EQ(bodyOf(head), "");
 }
 
+TEST_F(HttpTest, Still_OfSeveralViews_IsASheet) {
+    const std::string query = "/render?size=64x48&views=front,top,iso";
+    const std::string answer = httpGetOnceThere(server_.port(), query);
+    ASSERT_EQ(statusOf(answer), 200) << answer.substr(0, 400);
+    EXPECT_EQ(bodyOf(answer).substr(0, 2), "\xFF\xD8");
+    const std::string png = bodyOf(get(query + "&format=png"));
+    ASSERT_EQ(png.substr(1, 3), "PNG");
+    EXPECT_EQ(png.substr(16, 8), std::string("\0\0\0\x80\0\0\0\x60", 8)) << "128x96";
+    const size_t tag = answer.find("ETag: ") + 6;
+    const std::string known =
+        "If-None-Match: " + answer.substr(tag, answer.find('\r', tag) - tag) + "\r\n";
+    EXPECT_EQ(statusOf(get(query, known)), 304);
+    EXPECT_EQ(statusOf(get("/render?size=64x48&views=top,front,iso", known)), 200);
+    EXPECT_EQ(statusOf(get("/render?size=64x48&views=front,top,iso,back", "If-None-Match: *\r\n")),
+              304);
+}
+
+TEST_F(HttpTest, Still_AsFacts_IsJson) {
+    const std::string answer =
+        httpGetOnceThere(server_.port(), "/render?size=64x48&format=json&views=front,top");
+    ASSERT_EQ(statusOf(answer), 200) << answer.substr(0, 400);
+    EXPECT_NE(answer.find("Content-Type: application/json\r\n"), std::string::npos);
+    const auto facts = nlohmann::json::parse(bodyOf(answer));
+    EXPECT_EQ(facts.at("name"), "fake");
+    EXPECT_EQ(facts.at("unit"), "metre");
+    EXPECT_EQ(facts.at("bounds").at("size"), nlohmann::json({2.0, 2.0, 2.0}));
+    EXPECT_EQ(facts.at("cameras"), nlohmann::json({"front", "side"}));
+    ASSERT_EQ(facts.at("views").size(), 2U);
+    EXPECT_EQ(facts.at("views")[1].at("view"), "top");
+    const double black = facts.at("views")[0].at("near_black");
+    EXPECT_TRUE(black >= 0 && black <= 1) << black;
+    const auto first = nlohmann::json::parse(bodyOf(get("/render?size=64x48&format=json")));
+    EXPECT_EQ(first.at("views")[0].at("view"), "first");
+    const auto top = nlohmann::json::parse(bodyOf(get("/render?size=64x48&format=json&view=top")));
+    EXPECT_EQ(top.at("views")[0].at("view"), "top");
+}
+
 TEST_F(HttpTest, Still_ThatCannotBe_IsToldWhatWouldBeRight) {
     const std::tuple<std::string, int, std::string> cases[] = {
         {"lights=x", 400, R"("field":"lights")"},
@@ -104,6 +142,11 @@ TEST_F(HttpTest, Still_ThatCannotBe_IsToldWhatWouldBeRight) {
         {"scene=&scene=a", 400, "scene is given twice"},
         {"format=gif", 400, "it must be jpg, png, exr"},
         {"%6e%00=1", 400, R"(n\\x00 is not a name)"},
+        {"format=json&lights=x", 400, R"("field":"lights")"},
+        {"views=front,front", 400, "has \\\"front\\\" twice"},
+        {"views=", 400, "each must be one of first, iso"},
+        {"views=front&view=top", 400, "together with view"},
+        {"views=front&format=exr", 400, "jpg, png and json alone"},
         {"scene=other", 404, "not a scene of this server"},
         {"size=4096x4096&antialiasing=ssaa4", 400, R"("fits":"2048x2048)"},
     };

@@ -73,7 +73,7 @@ class StillDeskTest : public testing::Test {
 
         [[nodiscard]] bool answered() const { return outcome->has_value(); }
         [[nodiscard]] bool drawn() const {
-            return answered() && std::holds_alternative<SharedBytes>(**outcome);
+            return answered() && std::holds_alternative<StillPicture>(**outcome);
         }
         [[nodiscard]] const StillRefusal& refusal() const {
             return std::get<StillRefusal>(outcome->value());
@@ -188,14 +188,14 @@ TEST_F(StillDeskTest, LargerThanTheServerDraws_TellsWhatFits) {
     EXPECT_FALSE(refusal.retry_after);
 }
 
-TEST_F(StillDeskTest, OneAccount_WaitsForEight_AndOthersStillAsk) {
-    for (int i = 0; i < 8; ++i) {
+TEST_F(StillDeskTest, OneAccount_WaitsForNine_AndOthersStillAsk) {
+    for (int i = 0; i < 9; ++i) {
         EXPECT_FALSE(ask(std::to_string(i)).answered());
     }
-    const Asked ninth = ask("9");
-    EXPECT_EQ(ninth.refusal().why.code, session::RejectCode::kRateLimit);
-    EXPECT_TRUE(ninth.refusal().retry_after);
-    EXPECT_FALSE(ask("10", "", session::Account{"198.51.100.1"}).answered());
+    const Asked tenth = ask("10");
+    EXPECT_EQ(tenth.refusal().why.code, session::RejectCode::kRateLimit);
+    EXPECT_TRUE(tenth.refusal().retry_after);
+    EXPECT_FALSE(ask("11", "", session::Account{"198.51.100.1"}).answered());
 }
 
 TEST_F(StillDeskTest, All_WaitForSixtyFour) {
@@ -422,7 +422,7 @@ TEST_F(StillDeskTest, AnswersNobodyReads_GiveWayToThoseOfWhoHasFewer) {
     size_t closed = 0;
     for (const Asked& asked : {one, two}) {
         Unsent::sending(
-            std::get<SharedBytes>(asked.outcome->value()), [&] { ++closed; }, kNow - 5s);
+            std::get<StillPicture>(asked.outcome->value()).bytes, [&] { ++closed; }, kNow - 5s);
     }
     const Asked other = ask("c", "", session::Account{"198.51.100.1"}); // 12 KiB while it is drawn
     EXPECT_FALSE(other.answered()) << "it is being drawn";

@@ -1,4 +1,5 @@
 #include "context.h"
+#include "still/named_views.h"
 #include "still/still_view.h"
 
 #include <gtest/gtest.h>
@@ -74,6 +75,28 @@ TEST(StillView, EachSetting_IsRead) {
             EXPECT_NE(row.valueIn(*state), usual) << facts.name << "=" << text;
         }
     }
+}
+
+// All of the scene from that side; what else moves the camera starts there.
+TEST(StillView, NamedView_LooksAtTheWholeScene) {
+    for (const NamedView& named : kNamedViews) {
+        const auto state = view({{"view", std::string(named.name)}}).value();
+        const settings::Camera& camera = state.settings.camera;
+        if (!named.toward_eye) {
+            EXPECT_EQ(camera, view({}).value().settings.camera);
+            continue;
+        }
+        const auto& sphere = state.scene->first_view.sphere_world;
+        const glm::dvec3 toward = glm::normalize(camera.eye_world - sphere.center);
+        EXPECT_NEAR(glm::dot(toward, glm::normalize(*named.toward_eye)), 1, 1e-12) << named.name;
+        EXPECT_NEAR(glm::distance(camera.target_world(), sphere.center), 0, 1e-9) << named.name;
+    }
+    const auto state = view({{"view", "top"}, {"half_height", "3"}}).value();
+    EXPECT_EQ(state.settings.camera.projection, settings::Projection::kOrthographic);
+    EXPECT_NEAR(state.settings.camera.world_from_view[2].y, 1, 1e-12);
+    const auto refused = view({{"view", "above"}});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("it must be first, iso, "), std::string::npos);
 }
 
 TEST(StillView, WhatNoSettingHolds_IsRead) {
