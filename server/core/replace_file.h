@@ -2,10 +2,12 @@
 #pragma once
 
 #include "core/error.h"
+#include "core/file_descriptor.h"
 #include "core/write_all.h"
 
 #include <cerrno>
 #include <cstddef>
+#include <fcntl.h>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -14,6 +16,12 @@
 #include <unistd.h>
 
 namespace froxel {
+
+// Has what was created, renamed or removed in a folder outlive a crash of the machine. 0, or errno.
+[[nodiscard]] inline int syncFolder(const std::filesystem::path& folder) {
+    const FileDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    return opened && ::fsync(opened.get()) == 0 ? 0 : errno;
+}
 
 // Whether the new file outlives a crash of the machine, for which the disk is waited for.
 enum class Durable : bool { kNo, kYes };
@@ -52,6 +60,9 @@ enum class Durable : bool { kNo, kYes };
     }
     if (code == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) {
         code = errno;
+    }
+    if (code == 0 && durable == Durable::kYes) {
+        code = syncFolder(file.parent_path().empty() ? "." : file.parent_path());
     }
     if (code != 0) {
         ::unlink(temporary.c_str());

@@ -28,4 +28,17 @@ namespace froxel {
     return digits;
 }
 
+// In a time that depends on the lengths alone, so that a guess cannot be bettered by its timing.
+[[nodiscard]] inline bool sameSecret(std::string_view a, std::string_view b) {
+    if (a.size() != b.size()) {
+        return false;
+    }
+    volatile unsigned difference = 0; // volatile: no early end
+    for (size_t i = 0; i < a.size(); ++i) {
+        difference = difference | static_cast<unsigned>(static_cast<unsigned char>(a[i]) ^
+                                                        static_cast<unsigned char>(b[i]));
+    }
+    return difference == 0;
+}
+
 } // namespace froxel

@@ -1,6 +1,7 @@
 #include "net/lobby.h"
 
 #include "core/text.h"
+#include "core/unguessable.h"
 #include "session/resume_token.h"
 
 #include <spdlog/spdlog.h>
@@ -56,8 +57,8 @@ Lobby::Entries::iterator Lobby::findToken(const session::Hello& hello) {
         return found;
     }
     for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-        const bool same = session::sameToken(entry->second.token, hello.resume_token);
-        const bool before = session::sameToken(entry->second.token_before, hello.resume_token);
+        const bool same = sameSecret(entry->second.token, hello.resume_token);
+        const bool before = sameSecret(entry->second.token_before, hello.resume_token);
         if ((same || before) && (hello.room.empty() || hello.room == entry->second.room)) {
             found = entry;
         }

@@ -1,6 +1,7 @@
 #include "net/token_gate.h"
 
 #include "core/text.h"
+#include "core/unguessable.h"
 #include "net/token_file.h"
 #include "session/resume_token.h"
 
@@ -36,7 +37,7 @@ std::optional<TokenGate::Pass> TokenGate::admit(std::string_view token) const {
     const std::lock_guard lock(mutex_);
     std::shared_ptr<const Token> known = everybody_;
     for (const auto& valid : tokens_) {
-        if (session::sameToken(valid->secret, token)) {
+        if (sameSecret(valid->secret, token)) {
             known = valid;
         }
     }

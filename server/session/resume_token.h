@@ -14,7 +14,4 @@ namespace froxel::session {
 // nothing of the rest, which still has 192 bits.
 [[nodiscard]] std::string_view resumeName(std::string_view token);
 
-// In a time that depends on the lengths alone, so that a guess cannot be bettered by its timing.
-[[nodiscard]] bool sameToken(std::string_view a, std::string_view b);
-
 } // namespace froxel::session

@@ -1,3 +1,4 @@
+#include "core/unguessable.h"
 #include "session/resume_token.h"
 
 #include <gtest/gtest.h>
@@ -39,14 +40,14 @@ TEST(ResumeToken, EveryBit_IsSetInSomeAndClearInOthers) {
 
 TEST(ResumeToken, Same_OnlyWhereEveryByteIs) {
     const std::string token = makeResumeToken();
-    EXPECT_TRUE(sameToken(token, token));
-    EXPECT_TRUE(sameToken("", ""));
-    EXPECT_FALSE(sameToken(token, token.substr(1)));
-    EXPECT_FALSE(sameToken(token, ""));
+    EXPECT_TRUE(sameSecret(token, token));
+    EXPECT_TRUE(sameSecret("", ""));
+    EXPECT_FALSE(sameSecret(token, token.substr(1)));
+    EXPECT_FALSE(sameSecret(token, ""));
     for (size_t digit = 0; digit < token.size(); ++digit) {
         std::string other = token;
         other[digit] = other[digit] == '0' ? '1' : '0';
-        EXPECT_FALSE(sameToken(token, other)) << digit;
+        EXPECT_FALSE(sameSecret(token, other)) << digit;
     }
 }
 
