@@ -19,6 +19,9 @@ constexpr settings::Range<uint32_t> kRoomRange{"max_viewers_per_room", 0, 100'00
 constexpr settings::Range<uint32_t> kAccountRange{"max_sessions_per_address", 0, 1000};
 constexpr settings::Range<uint32_t> kStillsRange{"max_stills_per_minute", 0, 1'000'000};
 constexpr settings::Range<uint32_t> kBodyRange{"max_body", 0, 4096};
+constexpr settings::Range<uint32_t> kUploadRange{"max_upload", 1, 1'000'000};
+constexpr settings::Range<uint32_t> kUploadSpaceRange{"upload_space", 1, 100'000'000};
+constexpr settings::Range<uint32_t> kUploadHoursRange{"upload_hours", 1, 87'600};
 constexpr settings::Range<double> kRestRange{"paused_seconds", 0.0, 1e6};
 constexpr settings::Range<uint32_t> kConnectionsRange{"max_connections", 1, 1'000'000};
 constexpr settings::Range<double> kDrainRange{"drain_seconds", 0.0, 86'400.0};
@@ -46,6 +49,21 @@ void addStillLimits(CommandBuilder& command, ServeOptions& options) {
                    "and ::1 are exempt; 0: no limit");
     command.number("--max-body", options.body_mib, kBodyRange,
                    "MiB of the largest scene that POST /render accepts; 0: it accepts none");
+}
+
+void addUploads(CommandBuilder& command, UploadOptions& uploads) {
+    command.name("--uploads", uploads.from, kUploadsNames,
+                 "Whether clients may upload scenes. auto: if the server listens on loopback or "
+                 "asks for tokens");
+    command.text("--upload-folder", "DIR", uploads.folder, "uploads/ in the shader cache",
+                 "Where uploads are kept");
+    command.number("--max-upload", uploads.file_mib, kUploadRange,
+                   "MiB of the largest file of an upload");
+    command.number("--upload-space", uploads.all_mib, kUploadSpaceRange,
+                   "MiB of all uploads together; those unused for longest leave first. A tenth of "
+                   "the disk stays free");
+    command.number("--upload-hours", uploads.kept_hours, kUploadHoursRange,
+                   "Hours after its last use at which an upload is deleted");
 }
 
 } // namespace
@@ -168,6 +186,7 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
                    fmt::format("{} on a CPU device, {} on a GPU", kCpuWatchdog_s, kGpuWatchdog_s),
                    "Seconds of stalled drawing after which the process ends; 0: never");
     addStillLimits(command, options);
+    addUploads(command, options.uploads);
 }
 
 } // namespace froxel::app

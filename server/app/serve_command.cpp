@@ -12,6 +12,8 @@
 #include "core/text.h"
 #include "core/write_soon.h"
 #include "gpu/device.h"
+#include "guest/guest_store.h"
+#include "net/host_names.h"
 #include "net/stop_signal.h"
 #include "net/tls.h"
 #include "net/token_gate.h"
@@ -168,6 +170,37 @@ std::shared_ptr<catalogue::Catalogue> catalogueOf(const ServeOptions& options) {
     return std::make_shared<catalogue::Catalogue>(std::move(always), options.scenes);
 }
 
+bool takesUploads(const ServeOptions& options) {
+    const bool own = net::isLoopback(options.address) && options.host_names.empty();
+    const bool trusted = own || !options.token_file.empty();
+    const UploadsFrom from = options.uploads.from;
+    return from == UploadsFrom::kOn || (from == UploadsFrom::kAuto && trusted);
+}
+
+// Null: clients may bring none that stay.
+std::shared_ptr<guest::GuestStore> guestStore(const ServeOptions& options) {
+    if (!takesUploads(options)) {
+        return nullptr;
+    }
+    if (options.sandbox == bake::Sandbox::kOff) {
+        throw StartupError({ErrorCode::kInvalidArgument,
+                            "--uploads needs a process that reads them; expected --sandbox best or "
+                            "require"});
+    }
+    const UploadOptions& uploads = options.uploads;
+    const fs::path folder =
+        uploads.folder.empty() ? options.pipeline_cache.folder / "uploads" : uploads.folder;
+    if (uploads.folder.empty() && options.pipeline_cache.folder.empty()) {
+        throw StartupError({ErrorCode::kInvalidArgument,
+                            "--uploads needs a folder to keep them in; expected --upload-folder"});
+    }
+    guest::StoreLimits limits;
+    limits.file_bytes = uint64_t{uploads.file_mib} << 20U;
+    limits.all_bytes = uint64_t{uploads.all_mib} << 20U;
+    limits.kept = std::chrono::hours(uploads.kept_hours);
+    return std::make_shared<guest::GuestStore>(folder, limits, std::chrono::system_clock::now());
+}
+
 ServeRunOptions runOptions(const ServeOptions& options) {
     const uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
     ServeRunOptions run;
@@ -181,6 +214,7 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.stills.at_once = std::max(1.0, options.stills_per_minute / 10.0);
     const bool isolated = options.sandbox != bake::Sandbox::kOff;
     run.server.guest_body_bytes = isolated ? uint64_t{options.body_mib} << 20U : 0;
+    run.server.guest_store = guestStore(options);
     run.server.web_root = webRootOf(options);
     run.server.allowed_origins = options.allowed_origins;
     run.server.host_names = options.host_names;

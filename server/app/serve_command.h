@@ -10,13 +10,28 @@
 #include "settings/settings.h"
 #include "stream/jpeg_place.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace froxel::app {
+
+// kAuto: where they come from this computer alone, or tokens say who may.
+enum class UploadsFrom : uint8_t { kOff, kAuto, kOn };
+inline constexpr std::array<std::string_view, 3> kUploadsNames = {"off", "auto", "on"};
+
+// Scenes that clients bring and that stay for a while (guest::StoreLimits).
+struct UploadOptions {
+    UploadsFrom from = UploadsFrom::kOff;
+    std::filesystem::path folder; // empty: beside the shaders' cache
+    uint32_t file_mib = 512;
+    uint32_t all_mib = 5 * 1024;
+    uint32_t kept_hours = 24;
+};
 
 struct ServeOptions {
     std::filesystem::path config;              // where others came from; read when options are
@@ -46,6 +61,7 @@ struct ServeOptions {
     uint32_t viewers_per_room = 256;
     uint32_t stills_per_minute = 600; // still::StillLimits
     uint32_t body_mib = 64;
+    UploadOptions uploads;
     double paused_s = 30;
     double idle_s = 300;
     double forget_s = 3600;

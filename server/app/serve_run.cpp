@@ -74,9 +74,12 @@ void ServeRun::rescan() {
 
 std::shared_ptr<stream::SceneHost> ServeRun::makeScenes() {
     stream::SceneHostOptions scenes;
-    scenes.offers = [catalogue = options_.catalogue, guests = options_.server.guests](
-                        const std::string& id) -> std::optional<uint64_t> {
-        if (guests->find(id)) {
+    scenes.offers =
+        [catalogue = options_.catalogue, guests = options_.server.guests,
+         store = options_.server.guest_store](const std::string& id) -> std::optional<uint64_t> {
+        const auto brought = store ? store->factsOf(id) : std::nullopt;
+        const bool ready = brought && brought->state == guest::GuestStore::State::kReady;
+        if (ready || guests->find(id)) {
             return 0; // it never changes
         }
         const auto offered = catalogue ? catalogue->find(id) : std::nullopt;
@@ -95,7 +98,11 @@ std::shared_ptr<stream::SceneHost> ServeRun::makeScenes() {
 }
 
 Result<stream::ReadScene> ServeRun::readScene(const std::string& id, const ProgressReport& report) {
-    if (const auto brought = options_.server.guests->find(id)) {
+    auto brought = options_.server.guests->find(id);
+    if (!brought && options_.server.guest_store) {
+        brought = options_.server.guest_store->use(id, std::chrono::system_clock::now());
+    }
+    if (brought) {
         return read_guest_(brought, report);
     }
     const auto offered = options_.catalogue ? options_.catalogue->find(id) : std::nullopt;

@@ -60,11 +60,12 @@ std::string whatIsWrongWith(const std::string& name) {
     }
     const bool inside = path.is_relative() && path.lexically_normal().generic_string() == name &&
                         !name.starts_with("..") && !name.ends_with('/') && name != ".";
-    const bool printable_text = printable(name) == name;
-    return inside && printable_text ? ""
-                                    : fmt::format("is \"{}\"; expected a relative path without .. "
-                                                  "and control characters",
-                                                  printable(name, 100));
+    const bool plain = std::ranges::none_of(
+        name, [](unsigned char character) { return character < 0x20 || character == 0x7F; });
+    return inside && plain ? ""
+                           : fmt::format("is \"{}\"; expected a relative path without .. "
+                                         "and control characters",
+                                         printable(name, 100));
 }
 
 std::optional<StoreRefusal> whyMalformed(const GuestStore::Announced& announced,
@@ -192,10 +193,7 @@ std::optional<GuestStore::Scene> GuestStore::readScene(const std::string& id) co
             File file{.name = entry.at("path"), .size_bytes = entry.at("bytes")};
             // A crash may have come between a file's last byte and its name.
             if (sizeOf(partOf(id, place)) == file.size_bytes) {
-                const FileDescriptor part(::open(partOf(id, place).c_str(), O_RDONLY | O_CLOEXEC));
-                if (!part || ::fsync(part.get()) != 0 || settle(id, place) != 0) {
-                    return {};
-                }
+                fs::rename(partOf(id, place), pathOf(id, place));
             }
             file.whole = sizeOf(pathOf(id, place)) == file.size_bytes;
             file.received_bytes =
@@ -210,15 +208,9 @@ std::optional<GuestStore::Scene> GuestStore::readScene(const std::string& id) co
             scene.files.push_back(std::move(file));
         }
         return scene.files.empty() ? std::nullopt : std::optional(std::move(scene));
-    } catch (const Json::exception&) {
+    } catch (const std::exception&) { // Json's, or the disk's
         return {};
     }
-}
-
-int GuestStore::settle(const std::string& id, size_t place) const {
-    return ::rename(partOf(id, place).c_str(), pathOf(id, place).c_str()) == 0
-               ? syncFolder(folderOf(id))
-               : errno;
 }
 
 StoreResult<void> GuestStore::writeManifest(const std::string& id, const Scene& scene) const {
@@ -320,6 +312,17 @@ GuestStore::makeRoom(const std::string& account, uint64_t bytes, Gone& gone) {
     return {};
 }
 
+bool GuestStore::diskHolds(uint64_t bytes) const {
+    struct statvfs disk {};
+    if (::statvfs(folder_.c_str(), &disk) != 0) {
+        return true; // writing will tell
+    }
+    const auto block_bytes = static_cast<double>(disk.f_frsize);
+    const double free_bytes = static_cast<double>(disk.f_bavail) * block_bytes;
+    const double all_bytes = static_cast<double>(disk.f_blocks) * block_bytes;
+    return free_bytes - static_cast<double>(bytes) >= limits_.free_share * all_bytes;
+}
+
 StoreResult<GuestStore::Begun>
 GuestStore::begin(const Announced& announced, const std::string& account, Time now) {
     if (auto refused = whyMalformed(announced, limits_.file_bytes)) {
@@ -354,18 +357,10 @@ GuestStore::begin(const Announced& announced, const std::string& account, Time n
     if (refused) {
         return std::move(*refused);
     }
-    struct statvfs disk {};
-    const bool known = ::statvfs(folder_.c_str(), &disk) == 0;
-    const double free_bytes =
-        static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
-    const double all_bytes =
-        static_cast<double>(disk.f_blocks) * static_cast<double>(disk.f_frsize);
-    StoreResult<void> written;
-    if (known && free_bytes - static_cast<double>(missing_bytes) < limits_.free_share * all_bytes) {
-        written = refusal(Why::kFull, "", "the disk of the uploads has too little space left");
-    } else {
-        written = writeManifest(id, scene);
-    }
+    StoreResult<void> written =
+        diskHolds(missing_bytes)
+            ? writeManifest(id, scene)
+            : refusal(Why::kFull, "", "the disk of the uploads has too little space left");
     if (!written) {
         {
             const std::lock_guard lock(mutex_);
@@ -391,8 +386,8 @@ GuestStore::find(const std::string& upload) const {
     const std::string_view digits =
         dash == std::string::npos ? std::string_view() : std::string_view(upload).substr(dash + 1);
     size_t place = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), place);
-    if (known == ids_.end() || error != std::errc() || end != digits.data() + digits.size()) {
+    const std::errc error = std::from_chars(digits.data(), digits.data() + digits.size(), place).ec;
+    if (known == ids_.end() || error != std::errc() || std::to_string(place) != digits) {
         return {scenes_.end(), 0};
     }
     const auto scene = scenes_.find(known->second);
@@ -480,13 +475,12 @@ StoreResult<void> GuestStore::Upload::append(std::span<const std::byte> bytes, T
 }
 
 StoreResult<GuestStore::Standing> GuestStore::Upload::end(Time now) {
-    return ::fsync(file_.get()) == 0 ? store_->endUpload(id_, place_, now)
-                                     : StoreResult<Standing>(diskFailed(errno));
+    return store_->endUpload(id_, place_, now);
 }
 
 StoreResult<GuestStore::Standing>
 GuestStore::endUpload(const std::string& id, size_t place, Time now) {
-    Scene scene;
+    bool whole = false;
     {
         const std::lock_guard lock(mutex_);
         const auto found = scenes_.find(id);
@@ -494,13 +488,29 @@ GuestStore::endUpload(const std::string& id, size_t place, Time now) {
             return unknown();
         }
         found->second.used = now;
-        scene = found->second;
+        const File& file = found->second.files[place];
+        whole = file.received_bytes == file.size_bytes;
+        if (!whole) {
+            return standingIn(found->second, file);
+        }
     }
-    File& file = scene.files[place];
-    if (file.received_bytes < file.size_bytes || file.whole) {
-        return standingIn(scene, file);
+    if (::rename(partOf(id, place).c_str(), pathOf(id, place).c_str()) != 0) {
+        return errno == ENOENT ? unknown() : diskFailed(errno);
     }
-    if (const int error = settle(id, place); error != 0) {
+    size_t to_sync = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = scenes_.find(id);
+        if (found == scenes_.end()) {
+            return unknown();
+        }
+        found->second.files[place].whole = true;
+        if (!std::ranges::all_of(found->second.files, &File::whole)) {
+            return standingIn(found->second, found->second.files[place]);
+        }
+        to_sync = found->second.files.size();
+    }
+    if (const int error = sync(id, to_sync); error != 0) {
         return error == ENOENT ? unknown() : diskFailed(error);
     }
     const std::lock_guard lock(mutex_);
@@ -508,11 +518,18 @@ GuestStore::endUpload(const std::string& id, size_t place, Time now) {
     if (found == scenes_.end()) {
         return unknown();
     }
-    found->second.files[place].whole = true;
-    if (std::ranges::all_of(found->second.files, &File::whole)) {
-        found->second.state = State::kReady;
-    }
+    found->second.state = State::kReady;
     return standingIn(found->second, found->second.files[place]);
+}
+
+int GuestStore::sync(const std::string& id, size_t file_count) const {
+    for (size_t place = 0; place < file_count; ++place) {
+        const FileDescriptor file(::open(pathOf(id, place).c_str(), O_RDONLY | O_CLOEXEC));
+        if (!file || ::fsync(file.get()) != 0) {
+            return errno;
+        }
+    }
+    return syncFolder(folderOf(id));
 }
 
 void GuestStore::release(const std::string& id, size_t place) {

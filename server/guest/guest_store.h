@@ -6,8 +6,9 @@
 //   FOLDER/ID/0.part, 1.part  files as they come, by their place in the manifest
 //   FOLDER/ID/0, 1            whole ones
 //
-// No name that a client chose is a path. What was acknowledged outlives a crash: files are synced
-// before their names change. Any thread; calls wait for the disk unless said otherwise.
+// No name that a client chose is a path. What was acknowledged outlives the process; a scene that
+// is ready outlives the machine, too (fsync). Any thread; calls wait for the disk unless said
+// otherwise.
 #pragma once
 
 #include "core/error.h"
@@ -110,7 +111,7 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
 
         // No more than are missing.
         [[nodiscard]] StoreResult<void> append(std::span<const std::byte> bytes, Time now);
-        // Nothing more comes on this connection: has what came outlive a crash. The file's offset.
+        // Nothing more comes on this connection. With the scene's last byte it is ready.
         [[nodiscard]] StoreResult<Standing> end(Time now);
 
       private:
@@ -123,6 +124,8 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
     // Takes up what the folder holds, and removes what is broken or too old. Throws StartupError
     // (kIo).
     GuestStore(std::filesystem::path folder, const StoreLimits& limits, Time now);
+
+    [[nodiscard]] const StoreLimits& limits() const { return limits_; }
 
     // `account`: whose quota it is charged to; empty: nobody's. Scenes that were used longest ago
     // go where room is short.
@@ -172,14 +175,16 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
     [[nodiscard]] std::filesystem::path partOf(const std::string& id, size_t place) const;
     [[nodiscard]] std::optional<Scene> readScene(const std::string& id) const;
     [[nodiscard]] StoreResult<void> writeManifest(const std::string& id, const Scene& scene) const;
+    // Whether enough stays free beside so many more.
+    [[nodiscard]] bool diskHolds(uint64_t bytes) const;
     // Of scenes that are in the table no more.
     void removeFolders(const std::vector<std::string>& gone) const;
     void release(const std::string& id, size_t place);
     [[nodiscard]] Time dueOf(const Scene& scene) const;
     [[nodiscard]] Standing standingIn(const Scene& scene, const File& file) const;
     [[nodiscard]] StoreResult<Standing> endUpload(const std::string& id, size_t place, Time now);
-    // A whole and synced file gets its own name. 0, or errno.
-    [[nodiscard]] int settle(const std::string& id, size_t place) const;
+    // Of so many whole files. 0, or errno.
+    [[nodiscard]] int sync(const std::string& id, size_t file_count) const;
 
     // Under the lock, which no call holds while it waits for the disk. `gone`: whose folders are to
     // be removed after it.

@@ -39,9 +39,9 @@ const AdminSite::Route* AdminSite::routeOf(std::string_view path) {
     return route == kRoutes.end() ? nullptr : route;
 }
 
-bool AdminSite::takesPost(std::string_view path) const {
+std::string_view AdminSite::methodsOf(std::string_view path) const {
     const Route* const route = routeOf(path);
-    return route != nullptr && route->method == Method::kPost;
+    return route != nullptr && route->method == Method::kPost ? "POST" : "GET, HEAD";
 }
 
 Response AdminSite::answer(const Request& request,

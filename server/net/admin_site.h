@@ -45,7 +45,7 @@ class AdminSite final : public HttpSite {
     [[nodiscard]] Response answer(const Request& request,
                                   std::string_view path,
                                   const boost::asio::ip::address& peer) const override;
-    [[nodiscard]] bool takesPost(std::string_view path) const override;
+    [[nodiscard]] std::string_view methodsOf(std::string_view path) const override;
     [[nodiscard]] std::optional<Response>
     refuseUpgrade(const Request& request, const boost::asio::ip::address& peer) const override;
     void upgrade(PeerStream stream, Request request, ConnectionTicket ticket) const override;

@@ -183,8 +183,7 @@ void HttpSession::onReadError(beast::error_code error) {
 }
 
 void HttpSession::onRequest() {
-    const bool receives =
-        parser_->get().method() == http::verb::post && site_->takesBody(pathOf(parser_->get()));
+    const bool receives = site_->takesBody(parser_->get().method(), pathOf(parser_->get()));
     if (!receives && !parser_->is_done()) { // the header is complete and something is to follow
         write(refusal(http::status::payload_too_large, "requests must not have a body"));
         return;
@@ -240,8 +239,11 @@ void HttpSession::receive(Request request) {
     receiving_->due = std::chrono::steady_clock::now() + kDeadline +
                       std::chrono::seconds(size_bytes / kSlowestBodyBytes_s);
     stream_.next_layer().rate_policy().beginBody();
+    buffer_.reserve(receiving_->part.size()); // so much is read at once
     const auto expects = receiving_->request[http::field::expect];
-    if (beast::iequals(expects, "100-continue")) { // RFC 9110, 10.1.1
+    if (receiving_->parser.is_done()) { // it is empty
+        completeBody();
+    } else if (beast::iequals(expects, "100-continue")) { // RFC 9110, 10.1.1
         tellToContinue();
     } else if (!expects.empty()) {
         refuseBody(refusal(http::status::expectation_failed,
@@ -304,26 +306,57 @@ void HttpSession::onPart(beast::error_code error) {
         return;
     }
     const size_t came = receiving_->part.size() - receiving_->parser.get().body().size;
-    if (auto refused = receiving_->body->take(std::span(receiving_->part).first(came))) {
+    const auto take = [held = receiving_, came] {
+        return held->body->take(std::span(held->part).first(came));
+    };
+    if (!receiving_->body->waits()) {
+        onTaken(take());
+        return;
+    }
+    site_->longWork()->run(
+        strand_, take, [self = shared_from_this()](std::optional<Response> refused, Seconds) {
+            if (!guarded("http read", [&] { self->onTaken(std::move(refused)); })) {
+                self->close();
+            }
+        });
+}
+
+void HttpSession::onTaken(std::optional<Response> refused) {
+    if (!receiving_) { // closed meanwhile
+        return;
+    }
+    if (refused) {
         refuseBody(std::move(*refused));
-        return;
-    }
-    if (!receiving_->parser.is_done()) {
+    } else if (receiving_->parser.is_done()) {
+        completeBody();
+    } else {
         receiveMore();
-        return;
     }
-    stream_.next_layer().rate_policy().endBody();
+}
+
+void HttpSession::completeBody() {
+    endBody();
     const auto received = std::move(receiving_);
-    answerLaterBy(received->request, [&](auto done) {
-        return std::optional(received->body->complete(std::move(done)));
+    answerLaterBy(received->request, [&](auto done) -> std::optional<HttpSite::CallOff> {
+        if (!received->body->waits()) {
+            return received->body->complete(std::move(done));
+        }
+        site_->longWork()->post(
+            [received, done = std::move(done)] { received->body->complete(done); });
+        return [] {};
     });
+}
+
+void HttpSession::endBody() {
+    stream_.next_layer().rate_policy().endBody();
+    buffer_.shrink_to_fit();
 }
 
 void HttpSession::refuseBody(Response response) {
     response.keep_alive(receiving_->parser.is_done() && receiving_->request.keep_alive());
     LateAnswer answer = finished(receiving_->request, {std::move(response)});
     receiving_.reset();
-    stream_.next_layer().rate_policy().endBody();
+    endBody();
     write(std::move(answer));
 }
 
@@ -349,7 +382,7 @@ void HttpSession::refuseLater(Seconds wait) {
 }
 
 bool HttpSession::answersLater(const Request& request) {
-    if (request.method() != http::verb::get && request.method() != http::verb::head) {
+    if (!isOneOf(request, site_->methodsOf(pathOf(request)))) {
         return false;
     }
     answerLaterBy(request, [&](auto done) {

@@ -68,6 +68,10 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     void tellToContinue();
     void receiveMore();
     void onPart(boost::beast::error_code error);
+    void onTaken(std::optional<Response> refused);
+    void completeBody();
+    // No more of one is read.
+    void endBody();
     // Ends the body before it has come to its end.
     void refuseBody(Response response);
     // Tells, after a while, that there were too many requests.

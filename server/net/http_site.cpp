@@ -3,6 +3,7 @@
 #include "core/text.h"
 
 #include <boost/beast/core/string.hpp>
+#include <boost/beast/http/rfc7230.hpp>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
@@ -17,12 +18,9 @@ namespace {
 
 Response
 answerTo(const Request& request, const HttpSite& site, const boost::asio::ip::address& peer) {
-    const bool posts = site.takesPost(pathOf(request));
-    const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
-    if (posts ? request.method() != http::verb::post : !reads) {
-        const std::string allowed = posts                             ? "POST"
-                                    : site.takesBody(pathOf(request)) ? "GET, HEAD, POST"
-                                                                      : "GET, HEAD";
+    const std::string_view methods = site.methodsOf(pathOf(request));
+    if (!isOneOf(request, methods)) {
+        const std::string allowed(methods);
         Response response =
             textResponse(http::status::method_not_allowed, "only " + allowed + " is answered here");
         response.set(http::field::allow, allowed);
@@ -38,6 +36,11 @@ HttpSite::Received HttpSite::receive(const Request& /*request*/,
                                      const boost::asio::ip::address& /*peer*/,
                                      uint64_t /*size_bytes*/) const {
     return refusal(http::status::payload_too_large, "requests must not have a body");
+}
+
+bool isOneOf(const Request& request, std::string_view methods) {
+    const auto method = request.method_string();
+    return http::token_list({methods.data(), methods.size()}).exists(method);
 }
 
 std::string textOf(const nlohmann::ordered_json& json) {

@@ -5,6 +5,7 @@
 #include "core/encoded_frame.h"
 #include "net/connection_tickets.h"
 #include "net/host_names.h"
+#include "net/long_work.h"
 #include "net/paced_reads.h"
 #include "net/service.h"
 #include "transport/peer_stream.h"
@@ -61,7 +62,13 @@ class RequestBody {
     [[nodiscard]] virtual std::optional<Response> take(std::span<const std::byte> bytes) = 0;
     // All have come: as HttpSite::answerLater().
     [[nodiscard]] virtual std::function<void()> complete(std::function<void(LateAnswer)> done) = 0;
+    // Whether both wait for a disk: they are called where that keeps nobody.
+    [[nodiscard]] virtual bool waits() const { return false; }
 };
+
+[[nodiscard]] inline std::string_view viewOf(boost::beast::string_view text) {
+    return {text.data(), text.size()};
+}
 
 class HttpSite {
   public:
@@ -69,7 +76,11 @@ class HttpSite {
 
     // By which names it is asked.
     [[nodiscard]] virtual const HostNames& hostNames() const = 0;
-    // A GET or HEAD, or a POST where takesPost(); `path` is without the query.
+    // The methods that this path has, as the field Allow lists them.
+    [[nodiscard]] virtual std::string_view methodsOf(std::string_view /*path*/) const {
+        return "GET, HEAD";
+    }
+    // One of these; `path` is without the query.
     [[nodiscard]] virtual Response answer(const Request& request,
                                           std::string_view path,
                                           const boost::asio::ip::address& peer) const = 0;
@@ -79,8 +90,7 @@ class HttpSite {
                                          const boost::asio::ip::address& /*peer*/) const {
         return Seconds(0);
     }
-    [[nodiscard]] virtual bool takesPost(std::string_view /*path*/) const { return false; }
-    // A GET or HEAD of what takes longer than an answer may: `done` gets it once, on any thread and
+    // One of these, of what takes longer than an answer may: `done` gets it once, on any thread and
     // maybe within. What comes back calls it off, on any thread. None: answer() has it.
     using CallOff = std::function<void()>;
     [[nodiscard]] virtual std::optional<CallOff>
@@ -90,14 +100,19 @@ class HttpSite {
                 std::function<void(LateAnswer)> /*done*/) const {
         return {};
     }
-    // Whether a POST to this path has a body.
-    [[nodiscard]] virtual bool takesBody(std::string_view /*path*/) const { return false; }
+    // Whether a request of this method may have a body.
+    [[nodiscard]] virtual bool takesBody(boost::beast::http::verb /*method*/,
+                                         std::string_view /*path*/) const {
+        return false;
+    }
     // What takes the body of such a request, of so many bytes, or why it must not come.
     using Received = std::variant<Response, std::unique_ptr<RequestBody>>;
     [[nodiscard]] virtual Received receive(const Request& request,
                                            std::string_view path,
                                            const boost::asio::ip::address& peer,
                                            uint64_t size_bytes) const;
+    // Where bodies that wait are taken; null: there are none. Outlives every connection.
+    [[nodiscard]] virtual LongWork* longWork() const { return nullptr; }
     // Why this request of `peer` may not become a WebSocket; none when it may. Asked of a plain GET
     // of its path, too: a browser's page is told no status of a WebSocket that was refused.
     [[nodiscard]] virtual std::optional<Response>
@@ -122,8 +137,11 @@ class HttpSite {
 // The path of a request's target, without the query.
 [[nodiscard]] std::string_view pathOf(const Request& request);
 
-// The whole answer to a request that is no upgrade: GET and HEAD go to the site, HEAD gets the
-// headers of GET, and every answer the headers that keep browsers out of trouble.
+// Whether its method is one of HttpSite::methodsOf().
+[[nodiscard]] bool isOneOf(const Request& request, std::string_view methods);
+
+// The whole answer to a request that is no upgrade: methods that its path has go to the site, HEAD
+// gets the headers of GET, and every answer the headers that keep browsers out of trouble.
 [[nodiscard]] Response
 respond(const Request& request, const HttpSite& site, const boost::asio::ip::address& peer);
 // The same of what answerLater() gave.

@@ -29,10 +29,6 @@ Response noToken() {
     return unauthorized("Authorization must be Bearer and a token of this server");
 }
 
-std::string_view viewOf(beast::string_view text) {
-    return {text.data(), text.size()};
-}
-
 Response file(const Request& request, const StaticFile& found, const std::string& policy) {
     const Representation& sent = found.bestFor(viewOf(request[http::field::accept_encoding]));
     Response response = taggedResponse(request, found.content_type, sent.body, sent.etag);
@@ -220,7 +216,14 @@ struct Route {
     Response (*now)(const Asked& asked);
     HttpSite::CallOff (*later)(const Asked& asked, const Done& done);
     HttpSite::Received (*receive)(const Asked& asked, uint64_t size_bytes) = nullptr;
+    std::string_view methods = "GET, HEAD";
+    http::verb received = http::verb::post; // the method of bodies
 };
+
+// No limits of its own: none.
+std::optional<session::Account> accountOf(const Caller& caller) {
+    return caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
+}
 
 Response health(const Asked& asked) {
     const ServiceStatus status = asked.site->service->status();
@@ -285,12 +288,9 @@ HttpSite::CallOff still(const Asked& asked, const Done& done) {
 
 // A still of a scene that comes with the request.
 HttpSite::Received guestStill(const Asked& asked, uint64_t size_bytes) {
-    const Caller& caller = asked.caller;
-    const auto account =
-        caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
-    StillAnswers::Asked still{asked.request, std::string(asked.path), caller};
+    StillAnswers::Asked still{asked.request, std::string(asked.path), asked.caller};
     return asked.site->guest_bodies->receive(
-        account, viewOf(asked.request[http::field::content_type]), size_bytes,
+        accountOf(asked.caller), viewOf(asked.request[http::field::content_type]), size_bytes,
         [site = asked.site, still = std::move(still)](auto scene, const Done& done) {
             auto asked_of = still;
             asked_of.guest = std::move(scene);
@@ -302,16 +302,56 @@ HttpSite::Received guestStill(const Asked& asked, uint64_t size_bytes) {
         });
 }
 
-// The first that has a path answers it. All are read, by GET and HEAD.
+HttpSite::Received announceScene(const Asked& asked, uint64_t size_bytes) {
+    return asked.site->uploads->announce(accountOf(asked.caller), size_bytes);
+}
+
+// Below the listing's path: one scene, the server's or a client's.
+bool isScene(std::string_view path) {
+    return SceneListing::has(path) && path.size() > kScenesPath.size() + 1;
+}
+
+HttpSite::CallOff scene(const Asked& asked, const Done& done) {
+    const std::string id(asked.path.substr(kScenesPath.size() + 1));
+    if (asked.request.method() == http::verb::delete_) {
+        return asked.site->uploads->removeScene(asked.request, id, done);
+    }
+    auto brought = asked.site->uploads->answerScene(id);
+    done({brought ? std::move(*brought) : sceneListing(asked)});
+    return [] {};
+}
+
+bool isUpload(std::string_view path) {
+    return path.starts_with(kUploadsPath) && path.substr(kUploadsPath.size()).starts_with('/');
+}
+
+HttpSite::CallOff upload(const Asked& asked, const Done& done) {
+    return asked.site->uploads->answer(asked.request, asked.path, done);
+}
+
+HttpSite::Received createUpload(const Asked& asked, uint64_t size_bytes) {
+    return asked.site->uploads->create(asked.request, accountOf(asked.caller), size_bytes);
+}
+
+HttpSite::Received receiveUpload(const Asked& asked, uint64_t size_bytes) {
+    return asked.site->uploads->receive(asked.request, asked.path, size_bytes);
+}
+
+// The first that has a path answers it.
 constexpr std::array kRoutes = {
     Route{[](std::string_view path) { return path == "/healthz"; }, Gate::kAll, health, nullptr},
     Route{[](std::string_view path) { return path == "/settings.json"; }, Gate::kAll, settingWords,
           nullptr},
     Route{[](std::string_view path) { return path == kStillPath; }, Gate::kShown, nullptr, still,
-          guestStill},
+          guestStill, "GET, HEAD, POST"},
     // Thumbnails are below the listing's path.
     Route{StillAnswers::has, Gate::kShown, nullptr, still},
-    Route{SceneListing::has, Gate::kOwn, sceneListing, nullptr},
+    Route{isScene, Gate::kOwn, nullptr, scene, nullptr, "GET, HEAD, DELETE"},
+    Route{SceneListing::has, Gate::kOwn, sceneListing, nullptr, announceScene, "GET, HEAD, POST"},
+    Route{[](std::string_view path) { return path == kUploadsPath; }, Gate::kOwn, nullptr, upload,
+          createUpload, "OPTIONS, POST"},
+    Route{isUpload, Gate::kOwn, nullptr, upload, receiveUpload, "OPTIONS, HEAD, PATCH, DELETE",
+          http::verb::patch},
     Route{[](std::string_view path) { return path == kLinkPath; }, Gate::kAll, nullptr, preview},
     Route{[](std::string_view path) { return path == "/metrics"; }, Gate::kAll, noMetrics, nullptr},
     Route{isSocketPath, Gate::kAll, socketAlone, nullptr},
@@ -368,8 +408,13 @@ PublicSite::answerLater(const Request& request,
     return route.later(asked, done);
 }
 
-bool PublicSite::takesBody(std::string_view path) const {
-    return routeOf(path).receive != nullptr;
+std::string_view PublicSite::methodsOf(std::string_view path) const {
+    return routeOf(path).methods;
+}
+
+bool PublicSite::takesBody(http::verb method, std::string_view path) const {
+    const Route& route = routeOf(path);
+    return route.receive != nullptr && method == route.received;
 }
 
 HttpSite::Received PublicSite::receive(const Request& request,

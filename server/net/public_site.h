@@ -24,7 +24,10 @@ class PublicSite final : public HttpSite {
                 std::string_view path,
                 const boost::asio::ip::address& peer,
                 std::function<void(LateAnswer)> done) const override;
-    [[nodiscard]] bool takesBody(std::string_view path) const override;
+    [[nodiscard]] std::string_view methodsOf(std::string_view path) const override;
+    [[nodiscard]] bool takesBody(boost::beast::http::verb method,
+                                 std::string_view path) const override;
+    [[nodiscard]] LongWork* longWork() const override { return site_->long_work; }
     [[nodiscard]] Received receive(const Request& request,
                                    std::string_view path,
                                    const boost::asio::ip::address& peer,

@@ -29,6 +29,8 @@ constexpr std::chrono::seconds kNetworkAnswer{1};
 constexpr std::chrono::milliseconds kClosingTime{1000};
 constexpr std::chrono::milliseconds kLeastClosingTime{500};
 constexpr std::chrono::seconds kLastWords{1};
+// How often the store looks for what is too old.
+constexpr std::chrono::seconds kStoreLook{60};
 
 std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& long_work) {
     auto site = std::make_shared<Site>();
@@ -54,6 +56,7 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& lon
     site->stills = std::make_shared<StillAnswers>(site->still_desk, options.catalogue,
                                                   site->service, long_work);
     site->guest_bodies = std::make_shared<GuestBodies>(options.guests, options.guest_body_bytes);
+    site->uploads = std::make_shared<const Uploads>(options.guest_store, long_work);
     site->service->subscribe(site->stills);
     site->metrics->watchStills([desk = site->still_desk] { return desk->counts(); });
     site->long_work = &long_work;
@@ -130,9 +133,15 @@ struct Server::Impl {
                                               options.connections_max,
                                               std::make_shared<PublicSite>(site),
                                               options.tls)),
-          lobby_alarm(io, [this] { site->lobby->expire(Clock::now()); }), still_alarm(io, [this] {
-              site->stills->expire(Clock::now());
-              site->still_desk->expire(Clock::now());
+          lobby_alarm(io, [this] { site->lobby->expire(Clock::now()); }),
+          still_alarm(io,
+                      [this] {
+                          site->stills->expire(Clock::now());
+                          site->still_desk->expire(Clock::now());
+                      }),
+          store_alarm(io, [this, store = options.guest_store] {
+              long_work.post([store] { (void)store->expire(std::chrono::system_clock::now()); });
+              store_alarm.set(Clock::now() + kStoreLook);
           }) {
         if (!options.admin.address.empty()) {
             const std::string& address = options.admin.address;
@@ -145,6 +154,9 @@ struct Server::Impl {
                                          }},
                               AdminAccess{HostNames(options.host_names, address),
                                           isLoopback(address), options.admin_gate}));
+        }
+        if (options.guest_store) {
+            store_alarm.set(Clock::now() + kStoreLook);
         }
         site->lobby->setAlarm([this](TimePoint due) { lobby_alarm.set(due); });
         site->still_desk->setAlarm([this](TimePoint due) { still_alarm.set(due); });
@@ -193,6 +205,7 @@ struct Server::Impl {
         site->lobby->close();
         lobby_alarm.stop();
         still_alarm.stop();
+        store_alarm.stop();
     }
 
     const std::string reconnect_url;
@@ -202,6 +215,7 @@ struct Server::Impl {
     const std::shared_ptr<Listener> listener;
     Alarm lobby_alarm;
     Alarm still_alarm;
+    Alarm store_alarm;
     std::optional<Admin> admin;
     std::optional<Agones> agones;
     std::vector<std::future<void>> done;

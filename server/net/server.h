@@ -2,6 +2,7 @@
 #pragma once
 
 #include "guest/guest_shelf.h"
+#include "guest/guest_store.h"
 #include "net/agones.h"
 #include "net/bind_address.h"
 #include "net/lobby_rules.h"
@@ -43,6 +44,8 @@ struct ServerOptions {
     std::shared_ptr<guest::GuestShelf> guests = std::make_shared<guest::GuestShelf>();
     // Of one that comes in the body of a request; 0: none may.
     uint64_t guest_body_bytes = uint64_t{64} << 20U;
+    // Of scenes that clients bring and that stay; null: none may.
+    std::shared_ptr<guest::GuestStore> guest_store{};
     std::vector<std::string> allowed_origins;
     std::vector<std::string> trusted_proxies;    // networks, as TrustedProxies::parse
     std::vector<std::string> host_names;         // answered to at both addresses, see HostNames

@@ -14,6 +14,7 @@
 #include "net/static_files.h"
 #include "net/still_answers.h"
 #include "net/token_gate.h"
+#include "net/uploads.h"
 
 #include <memory>
 #include <string>
@@ -41,6 +42,7 @@ struct Site {
     std::shared_ptr<still::StillDesk> still_desk;
     std::shared_ptr<StillAnswers> stills;
     std::shared_ptr<GuestBodies> guest_bodies;
+    std::shared_ptr<const Uploads> uploads;
     LongWork* long_work = nullptr; // lives until the network's threads have ended
 };
 

@@ -23,10 +23,6 @@ constexpr Seconds kPatience = still::StillLimits().patience;
 constexpr size_t kMostEarly = still::StillLimits().waiting;
 constexpr ptrdiff_t kMostEarlyOfAccount = still::StillLimits().per_account;
 
-std::string_view viewOf(boost::beast::string_view text) {
-    return {text.data(), text.size()};
-}
-
 Response
 refused(http::status status, const char* code, const std::string& field, const std::string& text) {
     return apiRefusal(status, {code, field, field.empty() ? text : field + " " + text});
@@ -105,7 +101,7 @@ std::string StillAnswers::sceneTag(const std::string& scene) const {
     const auto offered = !catalogue_     ? std::nullopt
                          : scene.empty() ? std::optional(catalogue_->listing()->scenes().front())
                                          : catalogue_->find(scene);
-    return offered ? offered->id + " " + numberText(offered->version) : run_;
+    return offered ? offered->id + " " + numberText(offered->version) : run_ + " " + scene;
 }
 
 bool StillAnswers::lasts(const Request& request, const still::StillRequest& still) const {
@@ -123,9 +119,11 @@ std::variant<WantedStill, Response> StillAnswers::read(const Asked& asked) const
         return refused(http::status::bad_request, "malformed", "", "the address is malformed");
     }
     auto wanted = readStillAddress(*target, asked.guest != nullptr);
-    if (auto* read = std::get_if<WantedStill>(&wanted); read != nullptr && asked.guest) {
-        read->still.scene = asked.guest->id();
-        read->still.kept = false;
+    if (auto* read = std::get_if<WantedStill>(&wanted)) {
+        still::StillRequest& still = read->still;
+        still.scene = asked.guest ? asked.guest->id() : still.scene;
+        // Of a client's scene none stays, which its owner may remove.
+        still.kept = still.scene.empty() || (catalogue_ && catalogue_->find(still.scene));
     }
     return wanted;
 }

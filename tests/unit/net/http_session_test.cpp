@@ -101,7 +101,10 @@ class PatientSite final : public HttpSite {
         asked = std::move(done);
         return [this] { called_off = true; };
     }
-    [[nodiscard]] bool takesBody(std::string_view path) const override { return path == "/body"; }
+    [[nodiscard]] bool takesBody(boost::beast::http::verb method,
+                                 std::string_view path) const override {
+        return method == boost::beast::http::verb::post && path == "/body";
+    }
     [[nodiscard]] Received receive(const Request& /*request*/,
                                    std::string_view /*path*/,
                                    const boost::asio::ip::address& /*peer*/,
