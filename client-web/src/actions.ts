@@ -8,6 +8,7 @@ export interface Doings {
   readonly panel: () => void;
   readonly looks: () => void;
   readonly scenes: () => void;
+  readonly open: () => void;
   readonly renderers: () => void;
   readonly pictures: () => void;
   readonly room: () => void;
@@ -42,6 +43,7 @@ export function actionsOf(does: Doings): readonly Entry[] {
     action('Settings', 'c', does.panel, 'Opens or closes the settings', 'panel options controls'),
     action('Looks', 'v', does.looks, 'Shows the looks, and saves the current one', 'preset style mood theme'),
     action('Scenes', 'g', does.scenes, 'Shows the scenes of this server', 'gallery models files open'),
+    action('Open', 'i', does.open, 'Opens a scene of your own; or drop it on the page', 'upload import file bring drop glb gltf zip'),
     action('Figures', 'f', does.figures, 'Shows the time of each part of a frame', 'statistics passes latency fps'),
     action('Renderers', 'n', does.renderers, 'Shows the five renderers', 'forward deferred naive toon clustered'),
     action('Save picture', 'p', does.screenshot, 'Saves the current picture as a PNG file', 'screenshot image download'),

@@ -2,6 +2,7 @@
 
 import { actionsOf, camerasOf, looksOf, type Doings } from './actions';
 import type { AnimationCard } from './cards/animation_card';
+import type { BringCard } from './cards/bring_card';
 import { Banner } from './cards/banner';
 import { Legend } from './cards/legend';
 import type { LooksCard } from './cards/looks_card';
@@ -13,8 +14,9 @@ import type { SearchCard } from './cards/search_card';
 import { TokenPrompt } from './cards/token_prompt';
 import { Commands } from './commands';
 import { element, make } from './core/dom';
+import { holdsFiles, takeDropped } from './core/drop';
 import { entryOf, keyText, type Entry } from './core/entries';
-import { wasOpen } from './core/kept';
+import { broughtScene, wasOpen } from './core/kept';
 import { kMissing, Later } from './core/later';
 import { Codec } from './gen/froxel/v1/common_pb';
 import type { Panel } from './panel/panel';
@@ -159,6 +161,7 @@ const looksCard = new Later(makeLooks, partMissing);
 const scenesCard = new Later(makeScenes, partMissing);
 const renderersCard = new Later(makeRenderers, partMissing);
 const pictureCard = new Later(makePictures, partMissing);
+const bringCard = new Later(makeBring, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
@@ -207,6 +210,8 @@ store.listen(({ server }, before) => {
   const about = `${scene} on ${server.device} · froxel ${server.version}`;
   element('about', HTMLElement).textContent = about;
   sceneWarnings.show(server.scene);
+  const id = server.scene?.id ?? '';
+  if (id !== before.server?.scene?.id && broughtScene(id)) void bringCard.want().then((card) => card?.tellOf(id));
   if (server.scene?.animations.length) void animationCard.want().then((card) => card?.show(store.state));
 });
 
@@ -293,6 +298,21 @@ async function makeScenes(): Promise<ScenesCard> {
   return new ScenesCard({ selectScene: (id) => commands.selectScene(id), sceneId }, files);
 }
 
+async function makeBring(): Promise<BringCard> {
+  const [{ BringCard }, { XhrTransport }] = await Promise.all([
+    import('./cards/bring_card'),
+    import('./uploads/xhr_transport'),
+    import('./style/bring.css'),
+  ]);
+  const doing = { selectScene: (id: string) => commands.selectScene(id), copyLink: doings.copyLink };
+  return new BringCard(doing, files, new XhrTransport(() => token.value));
+}
+
+/** Whether scenes may be brought here is known once it was asked. */
+let takesUploads = false;
+const noUploads = (): void =>
+  store.dispatch({ type: 'notice', tone: 'info', text: 'This server accepts no scenes from here (froxel serve --uploads).' });
+
 /** Whether the server has more than the one that is shown. */
 function hasScenes(): boolean {
   return (store.state.server?.scene?.id ?? '') !== '';
@@ -309,6 +329,11 @@ function prefetch(): void {
   panel.ahead();
   looksCard.ahead();
   if (hasScenes()) scenesCard.ahead();
+  void files.takesUploads().then((takes) => {
+    takesUploads = takes;
+    element('tool-open', HTMLButtonElement).hidden = !takes;
+    if (takes) bringCard.ahead();
+  });
   searchCard.ahead();
   statsCard.prefetch();
   commands.prefetch();
@@ -334,6 +359,7 @@ function lostSync({ message, broken }: LostSync): void {
   }
 }
 
+const bringInput = element('bring-input', HTMLInputElement);
 const doings: Doings = {
   search: () => {
     void searchCard.want().then((search) => {
@@ -346,6 +372,10 @@ const doings: Doings = {
   scenes: () => {
     if (hasScenes()) void scenesCard.want().then((card) => card?.toggle());
     else store.dispatch({ type: 'notice', tone: 'info', text: 'This server has one scene.' });
+  },
+  open: () => {
+    if (takesUploads) bringInput.click();
+    else noUploads();
   },
   figures: () => statsCard.toggle(),
   renderers: () => void renderersCard.want().then((card) => card?.toggle()),
@@ -385,6 +415,7 @@ const tools: readonly (readonly [string, () => void])[] = [
   ['tool-search', doings.search],
   ['tool-panel', doings.panel],
   ['tool-scenes', doings.scenes],
+  ['tool-open', doings.open],
   ['tool-renderers', doings.renderers],
   ['tool-looks', doings.looks],
   ['tool-home', doings.home],
@@ -420,6 +451,29 @@ const input = new CanvasInput(canvas, commands, nextFrame);
 // Whoever is quicker than the fetch is heard, too.
 canvas.addEventListener('dblclick', (event) => void handles.want().then((made) => made?.pickAt(event)));
 // Captured, since the panel keeps the keys of its controls to itself, one that goes up there too.
+bringInput.addEventListener('change', () => {
+  const { files: list } = bringInput;
+  if (!list?.length) return;
+  void bringCard.want().then((card) => {
+    card?.chosen(list);
+    bringInput.value = ''; // the same file may be chosen again
+  });
+});
+const dropHint = element('drop-hint', HTMLElement);
+window.addEventListener('dragover', (event) => {
+  if (!holdsFiles(event.dataTransfer)) return;
+  event.preventDefault(); // else the browser would open the file in place of the page
+  dropHint.hidden = !takesUploads;
+});
+window.addEventListener('dragleave', ({ relatedTarget }) => (dropHint.hidden ||= relatedTarget === null));
+window.addEventListener('drop', (event) => {
+  dropHint.hidden = true;
+  if (!holdsFiles(event.dataTransfer) || !event.dataTransfer) return;
+  event.preventDefault();
+  const dropped = takeDropped(event.dataTransfer.items);
+  if (takesUploads) void bringCard.want().then((card) => card?.dropped(dropped));
+  else noUploads();
+});
 const captured = { capture: true };
 function keyDown(event: Event): void {
   if (!(event instanceof KeyboardEvent)) return; // a browser that fills in a form sends a plain one

@@ -154,9 +154,17 @@ net::LobbyRules lobbyRules(const ServeOptions& options) {
     return rules;
 }
 
-// The scene that the server begins with, the hall, and what the folder holds; null: no folder.
+bool takesUploads(const ServeOptions& options) {
+    const bool own = net::isLoopback(options.address) && options.host_names.empty();
+    const bool trusted = own || !options.token_file.empty();
+    const UploadsFrom from = options.uploads.from;
+    return from == UploadsFrom::kOn || (from == UploadsFrom::kAuto && trusted);
+}
+
+// The scene that the server begins with, the hall, and what the folder holds; null: there is none
+// but the first.
 std::shared_ptr<catalogue::Catalogue> catalogueOf(const ServeOptions& options) {
-    if (options.scenes.empty()) {
+    if (options.scenes.empty() && !takesUploads(options)) {
         return nullptr;
     }
     const catalogue::Offered hall{"builtin", "hall", "", "builtin", 0, 0};
@@ -168,13 +176,6 @@ std::shared_ptr<catalogue::Catalogue> catalogueOf(const ServeOptions& options) {
         }
     }
     return std::make_shared<catalogue::Catalogue>(std::move(always), options.scenes);
-}
-
-bool takesUploads(const ServeOptions& options) {
-    const bool own = net::isLoopback(options.address) && options.host_names.empty();
-    const bool trusted = own || !options.token_file.empty();
-    const UploadsFrom from = options.uploads.from;
-    return from == UploadsFrom::kOn || (from == UploadsFrom::kAuto && trusted);
 }
 
 // Null: clients may bring none that stay.

@@ -43,7 +43,7 @@ ServeRun::ServeRun(ServeRunOptions options)
             options_.server.lobby.sessions_max + options_.server.stills.workers),
       scenes_(makeScenes()), server_(std::make_unique<net::Server>(options_.server)),
       loop_(pool_, loopOptions()) {
-    if (options_.catalogue) {
+    if (options_.catalogue && !options_.catalogue->folder().empty()) {
         watch_.emplace(options_.catalogue->folder(), catalogue::Catalogue::kDeepest, kFolderRest,
                        [catalogue = options_.catalogue] { return catalogue->rescan(); });
         watch_->lookAgain(); // what has changed before it was watched

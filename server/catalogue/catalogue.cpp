@@ -126,6 +126,9 @@ bool Catalogue::rescan() {
 
 Catalogue::Found Catalogue::look() const {
     Found found;
+    if (folder_.empty()) {
+        return found;
+    }
     bool too_many = false;
     const auto visit = [&](const fs::directory_entry& entry) -> std::error_code {
         std::error_code failed;

@@ -69,7 +69,7 @@ class Catalogue {
     static constexpr size_t kMostScenes = 10'000;
     static constexpr int kDeepest = 8; // folders below the one given
 
-    // `always` is offered whatever the folder holds.
+    // `always` is offered whatever the folder holds; an empty path: there is none.
     Catalogue(std::vector<Offered> always, std::filesystem::path folder);
 
     // Looks at the folder again. Hidden files and links that lead out of it are left out, and what

@@ -15,6 +15,14 @@ export class ServerFiles {
     return fetch(new URL(path.replace(/^\//, ''), document.baseURI), { headers });
   }
 
+  /** Whether scenes may be brought to this server. */
+  async takesUploads(): Promise<boolean> {
+    const token = this.token();
+    const headers: HeadersInit = token === '' ? {} : { Authorization: `Bearer ${token}` };
+    const answer = await fetch(new URL('api/v1/uploads', document.baseURI), { method: 'OPTIONS', headers }).catch(() => null);
+    return answer?.status === 204;
+  }
+
   /** What an image shows of it; null: it is not to be had, whyever. Fetched once. */
   async picture(path: string): Promise<string | null> {
     const known = this.pictures.get(path);
