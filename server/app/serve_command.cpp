@@ -157,8 +157,17 @@ net::LobbyRules lobbyRules(const ServeOptions& options) {
 bool takesUploads(const ServeOptions& options) {
     const bool own = net::isLoopback(options.address) && options.host_names.empty();
     const bool trusted = own || !options.token_file.empty();
-    const UploadsFrom from = options.uploads.from;
-    return from == UploadsFrom::kOn || (from == UploadsFrom::kAuto && trusted);
+    const bool read = options.sandbox != bake::Sandbox::kOff;
+    const bool kept = !options.uploads.folder.empty() || !options.pipeline_cache.folder.empty();
+    if (options.uploads.from == UploadsFrom::kOn && !(read && kept)) {
+        throw StartupError({ErrorCode::kInvalidArgument,
+                            read ? "--uploads needs a folder to keep them in; expected "
+                                   "--upload-folder"
+                                 : "--uploads needs a process that reads them; expected --sandbox "
+                                   "best or require"});
+    }
+    return options.uploads.from == UploadsFrom::kOn ||
+           (options.uploads.from == UploadsFrom::kAuto && trusted && read && kept);
 }
 
 // The scene that the server begins with, the hall, and what the folder holds; null: there is none
@@ -183,23 +192,23 @@ std::shared_ptr<guest::GuestStore> guestStore(const ServeOptions& options) {
     if (!takesUploads(options)) {
         return nullptr;
     }
-    if (options.sandbox == bake::Sandbox::kOff) {
-        throw StartupError({ErrorCode::kInvalidArgument,
-                            "--uploads needs a process that reads them; expected --sandbox best or "
-                            "require"});
-    }
     const UploadOptions& uploads = options.uploads;
     const fs::path folder =
         uploads.folder.empty() ? options.pipeline_cache.folder / "uploads" : uploads.folder;
-    if (uploads.folder.empty() && options.pipeline_cache.folder.empty()) {
-        throw StartupError({ErrorCode::kInvalidArgument,
-                            "--uploads needs a folder to keep them in; expected --upload-folder"});
-    }
     guest::StoreLimits limits;
     limits.file_bytes = uint64_t{uploads.file_mib} << 20U;
     limits.all_bytes = uint64_t{uploads.all_mib} << 20U;
     limits.kept = std::chrono::hours(uploads.kept_hours);
-    return std::make_shared<guest::GuestStore>(folder, limits, std::chrono::system_clock::now());
+    try {
+        return std::make_shared<guest::GuestStore>(folder, limits,
+                                                   std::chrono::system_clock::now());
+    } catch (const StartupError& error) {
+        if (uploads.from == UploadsFrom::kOn) {
+            throw;
+        }
+        spdlog::warn("event=uploads_off reason={}", logValue(error.what(), 400));
+        return nullptr;
+    }
 }
 
 ServeRunOptions runOptions(const ServeOptions& options) {

@@ -17,6 +17,7 @@
 #include <fstream>
 #include <set>
 #include <string_view>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <system_error>
@@ -32,6 +33,7 @@ namespace {
 
 constexpr size_t kKeyBytes = 16;
 constexpr const char* kManifest = "manifest.json";
+constexpr const char* kLock = "lock";
 
 StoreRefusal refusal(Why why, std::string field, std::string message) {
     return {why, std::move(field), std::move(message)};
@@ -152,9 +154,18 @@ GuestStore::GuestStore(fs::path folder, const StoreLimits& limits, Time now)
     if (fs::create_directories(folder_, failed)) {
         fs::permissions(folder_, fs::perms::owner_all, failed);
     }
+    lock_ = FileDescriptor(::open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+    if (lock_ && ::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0) {
+        throw StartupError({ErrorCode::kIo, "another server keeps its uploads in '" +
+                                                folder_.string() +
+                                                "'; expected another --upload-folder"});
+    }
     Gone broken;
     for (const auto& entry : fs::directory_iterator(folder_, failed)) {
         const std::string id = entry.path().filename().string();
+        if (id == kLock) {
+            continue;
+        }
         if (auto scene = readScene(id)) {
             ids_.emplace(scene->upload_key, id);
             scenes_.emplace(id, std::move(*scene));
@@ -162,9 +173,10 @@ GuestStore::GuestStore(fs::path folder, const StoreLimits& limits, Time now)
             broken.push_back(id);
         }
     }
-    if (failed) {
-        throw StartupError({ErrorCode::kIo, "cannot use '" + folder_.string() +
-                                                "' for uploads: " + failed.message()});
+    if (failed || !lock_) {
+        throw StartupError(
+            {ErrorCode::kIo, "cannot use '" + folder_.string() + "' for uploads: " +
+                                 (failed ? failed.message() : "no file can be made in it")});
     }
     if (!broken.empty()) {
         spdlog::warn("event=uploads_dropped count={} reason=\"without a manifest\"", broken.size());

@@ -5,6 +5,7 @@
 //   FOLDER/ID/manifest.json   what was announced; written first, and again when all has come
 //   FOLDER/ID/0.part, 1.part  files as they come, by their place in the manifest
 //   FOLDER/ID/0, 1            whole ones
+//   FOLDER/lock               held by the one server that uses the folder
 //
 // No name that a client chose is a path. What was acknowledged outlives the process; a scene that
 // is ready outlives the machine, too (fsync). Any thread; calls wait for the disk unless said
@@ -122,7 +123,7 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
     };
 
     // Takes up what the folder holds, and removes what is broken or too old. Throws StartupError
-    // (kIo).
+    // (kIo), also where another server uses it.
     GuestStore(std::filesystem::path folder, const StoreLimits& limits, Time now);
 
     [[nodiscard]] const StoreLimits& limits() const { return limits_; }
@@ -200,6 +201,7 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
 
     const std::filesystem::path folder_;
     const StoreLimits limits_;
+    FileDescriptor lock_;
     mutable std::mutex mutex_;
     Scenes scenes_;
     std::map<std::string, std::string> ids_; // by upload key

@@ -36,6 +36,7 @@ class GuestStoreTest : public testing::Test {
     ~GuestStoreTest() override { fs::remove_all(folder_); }
 
     void start(GuestStore::Time now = kNow) {
+        store_.reset(); // which holds the folder
         store_ = std::make_shared<GuestStore>(folder_, limits_, now);
     }
     GuestStore::Begun
@@ -75,9 +76,10 @@ class GuestStoreTest : public testing::Test {
                   static_cast<ssize_t>(text.size()));
         return text;
     }
+    // Beside the lock.
     size_t entries() const {
         return static_cast<size_t>(
-            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()) - 1);
     }
 
     const fs::path folder_ =
@@ -213,6 +215,12 @@ TEST_F(GuestStoreTest, Restart_RemovesWhatIsBroken) {
     start();
     EXPECT_EQ(entries(), 1U);
     EXPECT_TRUE(store_->use(good.id, kNow));
+}
+
+TEST_F(GuestStoreTest, Folder_IsOfOneServer) {
+    start();
+    EXPECT_THROW(GuestStore(folder_, limits_, kNow), StartupError);
+    start();
 }
 
 TEST_F(GuestStoreTest, RoomIsShort_WhatWasUsedLongestAgoGoes) {
