@@ -218,7 +218,7 @@ class Uploads(unittest.TestCase):
                                          (("--uploads", "auto", "--token-file", tokens),
                                           {"Authorization": f"Bearer {TOKEN}"}, 201)):
             with self.subTest(options=options):
-                server = Server(self.folder / "who", *options)
+                server = Server(tempfile.mkdtemp(dir=self.folder), *options)
                 self.addCleanup(server.end)
                 body = json.dumps({"files": [{"path": "a.glb", "bytes": 4}]})
                 self.assertEqual(server.ask("POST", "/api/v1/scenes", headers, body)[0], status)
