@@ -74,7 +74,7 @@ it('Drop_OfAFolderOfFiles_AndOfAZip_AreTheSame', async () => {
   await viewer.page.evaluate(
     ({ scene, buffer }) => {
       const transfer = new DataTransfer();
-      const bytes = (base64: string): Uint8Array => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+      const bytes = (base64: string): Uint8Array<ArrayBuffer> => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
       transfer.items.add(new File([bytes(scene)], 'apart.gltf'));
       transfer.items.add(new File([bytes(buffer)], 'other.bin'));
       const event = { dataTransfer: transfer, bubbles: true, cancelable: true };

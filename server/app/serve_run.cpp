@@ -77,9 +77,7 @@ std::shared_ptr<stream::SceneHost> ServeRun::makeScenes() {
     scenes.offers =
         [catalogue = options_.catalogue, guests = options_.server.guests,
          store = options_.server.guest_store](const std::string& id) -> std::optional<uint64_t> {
-        const auto brought = store ? store->factsOf(id) : std::nullopt;
-        const bool ready = brought && brought->state == guest::GuestStore::State::kReady;
-        if (ready || guests->find(id)) {
+        if ((store && store->isReady(id)) || guests->find(id)) {
             return 0; // it never changes
         }
         const auto offered = catalogue ? catalogue->find(id) : std::nullopt;
@@ -89,11 +87,15 @@ std::shared_ptr<stream::SceneHost> ServeRun::makeScenes() {
         return readScene(id, report);
     };
     auto host = std::make_shared<stream::SceneHost>(std::move(scenes));
-    options_.server.guests->onTakenOff([weak = std::weak_ptr(host)] {
+    const auto tidy = [weak = std::weak_ptr(host)] {
         if (const auto still_there = weak.lock()) {
             still_there->tidy();
         }
-    });
+    };
+    options_.server.guests->onTakenOff(tidy);
+    if (options_.server.guest_store) {
+        options_.server.guest_store->onRemoved(tidy);
+    }
     return host;
 }
 

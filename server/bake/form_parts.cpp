@@ -1,5 +1,6 @@
 #include "bake/form_parts.h"
 
+#include "core/scene_file.h"
 #include "core/text.h"
 #include "gltf/failure.h"
 
@@ -53,11 +54,6 @@ std::string filenameOf(const Poco::Net::MessageHeader& header) {
     return parameters.get("filename", "");
 }
 
-bool isSceneName(const fs::path& name) {
-    const fs::path ending = name.extension();
-    return ending == ".glb" || ending == ".gltf";
-}
-
 } // namespace
 
 FormParts::FormParts(gltf::FileOpener& opener, const std::string& boundary) : opener_(opener) {
@@ -66,11 +62,11 @@ FormParts::FormParts(gltf::FileOpener& opener, const std::string& boundary) : op
     } catch (const Poco::Exception& error) {
         gltf::fail("is no multipart/form-data: " + printable(error.displayText(), 200));
     }
-    const auto isScene = [](const Part& part) { return isSceneName(part.name); };
+    const auto isScene = [](const Part& part) { return isSceneFile(part.name); };
     const auto count = std::ranges::count_if(parts_, isScene);
     if (count != 1) {
         gltf::fail("has " + std::to_string(count) +
-                   " parts with a filename that ends in .gltf or .glb; expected one");
+                   " parts with a filename that ends in .gltf, .glb or .vrm; expected one");
     }
     scene_ = static_cast<size_t>(std::ranges::find_if(parts_, isScene) - parts_.begin());
 }

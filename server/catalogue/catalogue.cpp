@@ -1,13 +1,13 @@
 #include "catalogue/catalogue.h"
 
 #include "core/is_inside.h"
+#include "core/scene_file.h"
 #include "core/text.h"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <iterator>
 #include <map>
@@ -28,14 +28,6 @@ uint64_t hashOf(std::string_view text, uint64_t hash = 14'695'981'039'346'656'03
         hash = (hash ^ static_cast<uint8_t>(letter)) * 1'099'511'628'211U;
     }
     return hash;
-}
-
-bool isSceneFile(const fs::path& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](char letter) {
-        return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-    });
-    return ending == ".gltf" || ending == ".glb" || ending == ".vrm"; // VRM is a GLB
 }
 
 uint64_t randomNumber() {

@@ -1,6 +1,7 @@
 #include "guest/guest_store.h"
 
 #include "core/replace_file.h"
+#include "core/scene_file.h"
 #include "core/text.h"
 #include "core/unguessable.h"
 #include "core/write_all.h"
@@ -49,11 +50,6 @@ StoreRefusal unknown() {
     return refusal(Why::kUnknown, "", "there is no such upload; it may have expired");
 }
 
-bool isSceneName(const fs::path& name) {
-    const fs::path ending = name.extension();
-    return ending == ".glb" || ending == ".gltf" || ending == ".vrm";
-}
-
 // As scenes refer to files: a path below the scene's own folder.
 std::string whatIsWrongWith(const std::string& name) {
     const fs::path path(name);
@@ -94,7 +90,7 @@ std::optional<StoreRefusal> whyMalformed(const GuestStore::Announced& announced,
                 size_bytes == 0 ? Why::kMalformed : Why::kTooLarge, field + ".bytes",
                 fmt::format("{}.bytes is {}; expected 1 to {}", field, size_bytes, most_bytes));
         }
-        scenes += isSceneName(name) ? 1U : 0U;
+        scenes += isSceneFile(name) ? 1U : 0U;
     }
     if (scenes != 1) {
         return refusal(
@@ -248,6 +244,9 @@ void GuestStore::removeFolders(const Gone& gone) const {
         if (failed) {
             spdlog::warn("event=upload_not_removed reason={}", logValue(failed.message()));
         }
+    }
+    if (!gone.empty()) {
+        tell_();
     }
 }
 
@@ -565,6 +564,12 @@ StoreResult<void> GuestStore::terminate(const std::string& upload) {
     return {};
 }
 
+bool GuestStore::isReady(const std::string& id) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = scenes_.find(id);
+    return found != scenes_.end() && found->second.state == State::kReady;
+}
+
 std::optional<GuestStore::Facts> GuestStore::factsOf(const std::string& id) const {
     const std::lock_guard lock(mutex_);
     const auto found = scenes_.find(id);
@@ -575,7 +580,7 @@ std::optional<GuestStore::Facts> GuestStore::factsOf(const std::string& id) cons
     Facts facts{scene.state, {}, scene.bytes(), 0, dueOf(scene)};
     for (const File& file : scene.files) {
         facts.received_bytes += file.received_bytes;
-        facts.name = isSceneName(file.name) ? file.name : facts.name;
+        facts.name = isSceneFile(file.name) ? file.name : facts.name;
     }
     return facts;
 }
@@ -600,7 +605,7 @@ std::shared_ptr<const GuestScene> GuestStore::use(const std::string& id, Time no
         if (!file.descriptor) {
             return nullptr; // it was removed meanwhile
         }
-        const bool first = isSceneName(file.name);
+        const bool first = isSceneFile(file.name);
         scene->files.insert(first ? scene->files.begin() : scene->files.end(), std::move(file));
     }
     setTimeOf(folderOf(id) / kManifest, now);

@@ -22,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -139,7 +140,11 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
     // Takes the scene that the file is of away.
     [[nodiscard]] StoreResult<void> terminate(const std::string& upload);
 
-    // Does not wait for the disk.
+    // Called without a lock, when scenes were removed. Set before the first one is.
+    void onRemoved(std::function<void()> tell) { tell_ = std::move(tell); }
+
+    // Neither waits for the disk.
+    [[nodiscard]] bool isReady(const std::string& id) const;
     [[nodiscard]] std::optional<Facts> factsOf(const std::string& id) const;
     // Ready to be read; null: there is none of this id. It counts as used now.
     [[nodiscard]] std::shared_ptr<const GuestScene> use(const std::string& id, Time now);
@@ -202,6 +207,7 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
     const std::filesystem::path folder_;
     const StoreLimits limits_;
     FileDescriptor lock_;
+    std::function<void()> tell_ = [] {};
     mutable std::mutex mutex_;
     Scenes scenes_;
     std::map<std::string, std::string> ids_; // by upload key

@@ -29,18 +29,22 @@ Response putOff(http::status status, const char* code, const std::string& text) 
     return response;
 }
 
-enum class Kind : uint8_t { kGlb, kGltf };
+enum class Kind : uint8_t { kGlb, kGltf, kOther, kNotYet };
 
-// By its first bytes; none: neither.
-std::optional<Kind> kindOf(std::string_view begin) {
+// By its first bytes, however few have come.
+Kind kindOf(std::string_view begin) {
     constexpr std::string_view kMagic = "glTF";
     constexpr std::string_view kBlank = " \t\r\n\xEF\xBB\xBF";
+    constexpr size_t kMostBlank = 256;
     if (begin.starts_with(kMagic)) {
         return Kind::kGlb;
     }
     const size_t first = begin.find_first_not_of(kBlank);
-    return first != std::string_view::npos && begin[first] == '{' ? std::optional(Kind::kGltf)
-                                                                  : std::nullopt;
+    if (kMagic.starts_with(begin) ||
+        (first == std::string_view::npos && begin.size() < kMostBlank)) {
+        return Kind::kNotYet;
+    }
+    return first != std::string_view::npos && begin[first] == '{' ? Kind::kGltf : Kind::kOther;
 }
 
 // Of the parts of a form (RFC 7578); none: it is no form.
@@ -106,13 +110,14 @@ class GuestBodies::Body final : public RequestBody {
           form_boundary_(std::move(form_boundary)), then_(std::move(then)) {}
 
     std::optional<Response> take(std::span<const std::byte> bytes) override {
-        if (form_boundary_.empty() && !kind_ && !bytes.empty()) {
-            const std::string_view begin(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-            kind_ = kindOf(begin);
-            if (!kind_) {
-                return refused(http::status::unsupported_media_type, "unsupported",
-                               fmt::format("begins with \"{}\"; expected a GLB or glTF file",
-                                           printable(std::string(begin.substr(0, 8)))));
+        if (form_boundary_.empty() && kind_ == Kind::kNotYet) {
+            begin_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+            kind_ = kindOf(begin_);
+            if (kind_ == Kind::kOther) {
+                return noScene();
+            }
+            if (kind_ != Kind::kNotYet) {
+                begin_ = {};
             }
         }
         if (auto refused = room_->grow(bytes.size())) {
@@ -125,6 +130,10 @@ class GuestBodies::Body final : public RequestBody {
     }
 
     HttpSite::CallOff complete(std::function<void(LateAnswer)> done) override {
+        if (form_boundary_.empty() && kind_ == Kind::kNotYet) {
+            done({noScene()});
+            return [] {};
+        }
         auto file = std::move(file_).complete(!form_boundary_.empty() ? "form"
                                               : kind_ == Kind::kGlb   ? "scene.glb"
                                                                       : "scene.gltf");
@@ -140,12 +149,19 @@ class GuestBodies::Body final : public RequestBody {
     }
 
   private:
+    Response noScene() const {
+        return refused(http::status::unsupported_media_type, "unsupported",
+                       fmt::format("begins with \"{}\"; expected a GLB or glTF file",
+                                   printable(begin_.substr(0, 8))));
+    }
+
     const std::shared_ptr<guest::GuestShelf> shelf_;
     std::shared_ptr<Room> room_;
     guest::MemoryFile file_;
     const std::string form_boundary_; // empty: it is no form
     const Then then_;
-    std::optional<Kind> kind_;
+    std::string begin_; // until the kind is known
+    Kind kind_ = Kind::kNotYet;
 };
 
 HttpSite::Received GuestBodies::receive(const std::optional<session::Account>& account,

@@ -37,6 +37,11 @@ std::string dateOf(std::chrono::system_clock::time_point now) {
                        fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
 }
 
+// Of one whose taker threw.
+Response bodyFailed() {
+    return refusal(http::status::internal_server_error, "the server could not take the body");
+}
+
 } // namespace
 
 HttpSession::HttpSession(boost::asio::ip::tcp::socket socket,
@@ -268,6 +273,10 @@ void HttpSession::tellToContinue() {
 }
 
 void HttpSession::receiveMore() {
+    if (!receiving_) { // closed meanwhile
+        return;
+    }
+    giveWayWhileWaiting();
     request_deadline_.expires_at(
         std::min(receiving_->due, std::chrono::steady_clock::now() + kLongestPause));
     request_deadline_.async_wait([self = shared_from_this()](beast::error_code error) {
@@ -294,6 +303,7 @@ void HttpSession::onPart(beast::error_code error) {
         return;
     }
     request_deadline_.cancel();
+    ticket_->heardClient();
     if (error && error != http::error::need_buffer) {
         if (late_) {
             refuseBody(
@@ -307,7 +317,11 @@ void HttpSession::onPart(beast::error_code error) {
     }
     const size_t came = receiving_->part.size() - receiving_->parser.get().body().size;
     const auto take = [held = receiving_, came] {
-        return held->body->take(std::span(held->part).first(came));
+        std::optional<Response> refused;
+        const auto bytes = std::span(held->part).first(came);
+        return guarded("http body", [&] { refused = held->body->take(bytes); })
+                   ? std::move(refused)
+                   : std::optional(bodyFailed());
     };
     if (!receiving_->body->waits()) {
         onTaken(take());
@@ -341,8 +355,11 @@ void HttpSession::completeBody() {
         if (!received->body->waits()) {
             return received->body->complete(std::move(done));
         }
-        site_->longWork()->post(
-            [received, done = std::move(done)] { received->body->complete(done); });
+        site_->longWork()->post([received, done = std::move(done)] {
+            if (!guarded("http body", [&] { received->body->complete(done); })) {
+                done({bodyFailed()});
+            }
+        });
         return [] {};
     });
 }

@@ -411,6 +411,7 @@ bool SceneHost::dropWithdrawn() {
 
 void SceneHost::tidy() {
     const std::lock_guard lock(mutex_);
+    withdrawn_ = true;
     wake_();
 }
 
@@ -487,10 +488,9 @@ std::optional<TimePoint> SceneHost::work(TimePoint now) {
     std::unique_ptr<SceneMove> given_up;
     std::string id;
     SceneMove* move = nullptr;
-    bool withdrawn_held = false;
     {
         const std::lock_guard lock(mutex_);
-        withdrawn_held = dropWithdrawn();
+        withdrawn_ = withdrawn_ && dropWithdrawn();
         if (!leaving_.empty()) {
             leaving = std::move(leaving_.back());
             leaving_.pop_back();
@@ -509,7 +509,7 @@ std::optional<TimePoint> SceneHost::work(TimePoint now) {
             break;
         }
         if (!leaving && !given_up && move == nullptr) {
-            return withdrawn_held ? std::optional(now + kLook) : std::nullopt;
+            return withdrawn_ ? std::optional(now + kLook) : std::nullopt;
         }
     }
     if (move != nullptr) {

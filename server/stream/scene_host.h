@@ -4,8 +4,8 @@
 // One at a time is read, on a thread of low priority, and moved to the device in slices, between
 // others' frames. A file that takes longer than a moment no longer keeps the next ones from being
 // read beside it, and one that takes far too long is given up. Where memory is short, scenes leave
-// that nobody holds, the one asked for longest ago first; a scene that is not offered any more
-// leaves in any case. The scene that the server began with stays.
+// that nobody holds, the one asked for longest ago first; one of which tidy() tells leaves in any
+// case. The scene that the server began with stays.
 #pragma once
 
 #include "core/clock.h"
@@ -145,6 +145,7 @@ class SceneHost final : public session::ScenePort {
     Residents residents_;
     std::map<std::string, Contents> contents_;          // by id, of all that were ever read
     std::vector<std::unique_ptr<SceneSource>> leaving_; // which the render thread ends
+    bool withdrawn_ = false;                            // some of it may not be offered any more
     session::SceneCounts counts_;                       // of what adds up
     uint64_t last_number_ = 0;
     FrameSource* device_ = nullptr;

@@ -162,7 +162,7 @@ async def broken_scenes_posted(arena):
         await post(arena, body, fields=FORM if body in BROKEN_FORMS else "")
 
 
-@case(clients=16, seconds=14, needs=("HTTP 408", "HTTP 200"), newcomer=True,
+@case(clients=16, seconds=16, needs=("HTTP 408", "HTTP 200"), newcomer=True,
       serve=("--max-body", "8"), most={**JOINS, "rss_mb": 1500})
 async def scenes_that_never_come(arena):
     """Announces scenes of the largest size and sends a byte of each; another address still gets its picture."""

@@ -101,6 +101,7 @@ TEST_F(GuestStoreTest, SceneIsThere_WithTheLastByteOfItsLastFile) {
     EXPECT_EQ(send(begun.uploads[1], 3, "n"), 4U);
     const auto facts = store_->factsOf(begun.id);
     EXPECT_EQ(facts->state, GuestStore::State::kReady);
+    EXPECT_TRUE(store_->isReady(begun.id));
     EXPECT_EQ(facts->name, "a.gltf");
     EXPECT_EQ(facts->received_bytes, 7U);
     const auto scene = store_->use(begun.id, kNow);
@@ -166,8 +167,11 @@ TEST_F(GuestStoreTest, WrongNames_AreUnknown) {
     EXPECT_FALSE(store_->remove(begun.id, ""));
     EXPECT_FALSE(store_->remove(begun.id, begun.id));
     EXPECT_FALSE(store_->remove("", begun.owner_key));
+    int told = 0;
+    store_->onRemoved([&] { ++told; });
     EXPECT_TRUE(store_->remove(begun.id, begun.owner_key));
     EXPECT_FALSE(store_->remove(begun.id, begun.owner_key));
+    EXPECT_EQ(told, 1);
     EXPECT_EQ(entries(), 0U);
 }
 

@@ -152,15 +152,6 @@ TEST_F(SceneSession, UnknownScene_IsRefused) {
     EXPECT_TRUE(refused.error().blameless);
 }
 
-TEST_F(SceneSession, ServerOfOneScene_RefusesOthers) {
-    serving_.scenes = nullptr;
-    const Guest guest = enter();
-    const auto refused = select(guest, "fox");
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, RejectCode::kUnsupported);
-    EXPECT_TRUE(select(guest, "first"));
-}
-
 TEST_F(SceneSession, TheOneThatIsShown_CallsOffTheOneThatComes) {
     const Guest guest = enter();
     ASSERT_TRUE(select(guest, "fox"));
