@@ -200,7 +200,7 @@ it('Figures', async () => {
   await openWithPicture();
   await viewer.openFigures();
   await viewer.page.locator('#panel [data-field]').first().waitFor({ state: 'attached' }); // fetched ahead
-  expect(await viewer.fetchedBytes()).toBeLessThan(120_000);
+  expect(await viewer.fetchedBytes()).toBeLessThan(122_000);
   await until('passes', async () => (await viewer.page.locator('#passes-table tr').count()) > 0);
   await looksAsItShould('figures');
 });

@@ -1,8 +1,8 @@
 // The composition root: puts the parts together and ties them to the page.
 
 import { actionsOf, camerasOf, looksOf, type Doings } from './actions';
+import type { Bring } from './bring';
 import type { AnimationCard } from './cards/animation_card';
-import type { BringCard } from './cards/bring_card';
 import { Banner } from './cards/banner';
 import { Legend } from './cards/legend';
 import type { LooksCard } from './cards/looks_card';
@@ -14,9 +14,8 @@ import type { SearchCard } from './cards/search_card';
 import { TokenPrompt } from './cards/token_prompt';
 import { Commands } from './commands';
 import { element, make } from './core/dom';
-import { holdsFiles, takeDropped } from './core/drop';
 import { entryOf, keyText, type Entry } from './core/entries';
-import { broughtScene, wasOpen } from './core/kept';
+import { wasOpen } from './core/kept';
 import { kMissing, Later } from './core/later';
 import { Codec } from './gen/froxel/v1/common_pb';
 import type { Panel } from './panel/panel';
@@ -161,7 +160,7 @@ const looksCard = new Later(makeLooks, partMissing);
 const scenesCard = new Later(makeScenes, partMissing);
 const renderersCard = new Later(makeRenderers, partMissing);
 const pictureCard = new Later(makePictures, partMissing);
-const bringCard = new Later(makeBring, partMissing);
+const bring = new Later(makeBring, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
@@ -211,7 +210,7 @@ store.listen(({ server }, before) => {
   element('about', HTMLElement).textContent = about;
   sceneWarnings.show(server.scene);
   const id = server.scene?.id ?? '';
-  if (id !== before.server?.scene?.id && broughtScene(id)) void bringCard.want().then((card) => card?.tellOf(id));
+  if (id !== before.server?.scene?.id) bring.here?.sceneShown(id);
   if (server.scene?.animations.length) void animationCard.want().then((card) => card?.show(store.state));
 });
 
@@ -298,20 +297,19 @@ async function makeScenes(): Promise<ScenesCard> {
   return new ScenesCard({ selectScene: (id) => commands.selectScene(id), sceneId }, files);
 }
 
-async function makeBring(): Promise<BringCard> {
-  const [{ BringCard }, { XhrTransport }] = await Promise.all([
-    import('./cards/bring_card'),
-    import('./uploads/xhr_transport'),
-    import('./style/bring.css'),
-  ]);
-  const doing = { selectScene: (id: string) => commands.selectScene(id), copyLink: doings.copyLink };
-  return new BringCard(doing, files, new XhrTransport(() => token.value));
+async function makeBring(): Promise<Bring> {
+  const { Bring } = await import('./bring');
+  const made = new Bring({
+    files,
+    token: () => token.value,
+    selectScene: (id) => commands.selectScene(id),
+    copyLink: doings.copyLink,
+    tell: (text) => store.dispatch({ type: 'notice', tone: 'info', text }),
+    partMissing,
+  });
+  made.sceneShown(store.state.server?.scene?.id ?? '');
+  return made;
 }
-
-/** Whether scenes may be brought here is known once it was asked. */
-let takesUploads = false;
-const noUploads = (): void =>
-  store.dispatch({ type: 'notice', tone: 'info', text: 'This server accepts no scenes from here (froxel serve --uploads).' });
 
 /** Whether the server has more than the one that is shown. */
 function hasScenes(): boolean {
@@ -329,11 +327,7 @@ function prefetch(): void {
   panel.ahead();
   looksCard.ahead();
   if (hasScenes()) scenesCard.ahead();
-  void files.takesUploads().then((takes) => {
-    takesUploads = takes;
-    element('tool-open', HTMLButtonElement).hidden = !takes;
-    if (takes) bringCard.ahead();
-  });
+  bring.ahead();
   searchCard.ahead();
   statsCard.prefetch();
   commands.prefetch();
@@ -359,7 +353,6 @@ function lostSync({ message, broken }: LostSync): void {
   }
 }
 
-const bringInput = element('bring-input', HTMLInputElement);
 const doings: Doings = {
   search: () => {
     void searchCard.want().then((search) => {
@@ -373,10 +366,7 @@ const doings: Doings = {
     if (hasScenes()) void scenesCard.want().then((card) => card?.toggle());
     else store.dispatch({ type: 'notice', tone: 'info', text: 'This server has one scene.' });
   },
-  open: () => {
-    if (takesUploads) bringInput.click();
-    else noUploads();
-  },
+  open: () => void bring.want().then((made) => made?.open()),
   figures: () => statsCard.toggle(),
   renderers: () => void renderersCard.want().then((card) => card?.toggle()),
   pictures: () => void pictureCard.want().then((card) => card?.toggle()),
@@ -451,29 +441,6 @@ const input = new CanvasInput(canvas, commands, nextFrame);
 // Whoever is quicker than the fetch is heard, too.
 canvas.addEventListener('dblclick', (event) => void handles.want().then((made) => made?.pickAt(event)));
 // Captured, since the panel keeps the keys of its controls to itself, one that goes up there too.
-bringInput.addEventListener('change', () => {
-  const { files: list } = bringInput;
-  if (!list?.length) return;
-  void bringCard.want().then((card) => {
-    card?.chosen(list);
-    bringInput.value = ''; // the same file may be chosen again
-  });
-});
-const dropHint = element('drop-hint', HTMLElement);
-window.addEventListener('dragover', (event) => {
-  if (!holdsFiles(event.dataTransfer)) return;
-  event.preventDefault(); // else the browser would open the file in place of the page
-  dropHint.hidden = !takesUploads;
-});
-window.addEventListener('dragleave', ({ relatedTarget }) => (dropHint.hidden ||= relatedTarget === null));
-window.addEventListener('drop', (event) => {
-  dropHint.hidden = true;
-  if (!holdsFiles(event.dataTransfer) || !event.dataTransfer) return;
-  event.preventDefault();
-  const dropped = takeDropped(event.dataTransfer.items);
-  if (takesUploads) void bringCard.want().then((card) => card?.dropped(dropped));
-  else noUploads();
-});
 const captured = { capture: true };
 function keyDown(event: Event): void {
   if (!(event instanceof KeyboardEvent)) return; // a browser that fills in a form sends a plain one

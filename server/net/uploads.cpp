@@ -344,12 +344,13 @@ Uploads::receive(const Request& request, std::string_view path, uint64_t size_by
 HttpSite::CallOff
 Uploads::answer(const Request& request, std::string_view path, const Done& done) const {
     const auto nothing = [] {};
-    if (!store_) {
-        done({uploadsAreOff()});
+    const bool asks = request.method() == http::verb::options;
+    if (!store_) { // who asks whether there are some has made no mistake
+        done({asks ? makeResponse(http::status::no_content, "text/plain", {}) : uploadsAreOff()});
         return nothing;
     }
     Response response = withTus(makeResponse(http::status::no_content, "text/plain", {}));
-    if (request.method() == http::verb::options) {
+    if (asks) {
         set(response, "Tus-Version", kTusVersion);
         set(response, "Tus-Extension", "creation,termination,expiration");
         set(response, "Tus-Max-Size", numberText(store_->limits().file_bytes));

@@ -224,6 +224,8 @@ class Uploads(unittest.TestCase):
                 self.assertEqual(server.ask("POST", "/api/v1/scenes", headers, body)[0], status)
                 if status == 403:
                     self.assertEqual(server.ask("HEAD", "/api/v1/uploads/x-0", TUS)[0], 403)
+                    status, fields, _ = server.ask("OPTIONS", "/api/v1/uploads")
+                    self.assertEqual((status, fields["Tus-Version"]), (204, None), "no error in a page's console")
         refused = subprocess.run([FROXEL, "serve", "--uploads", "on", "--sandbox", "off", "--port", "0"],
                                  capture_output=True, text=True)
         self.assertEqual(refused.returncode, 2)

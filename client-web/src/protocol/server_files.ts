@@ -20,7 +20,7 @@ export class ServerFiles {
     const token = this.token();
     const headers: HeadersInit = token === '' ? {} : { Authorization: `Bearer ${token}` };
     const answer = await fetch(new URL('api/v1/uploads', document.baseURI), { method: 'OPTIONS', headers }).catch(() => null);
-    return answer?.status === 204;
+    return answer?.headers.has('Tus-Version') ?? false;
   }
 
   /** What an image shows of it; null: it is not to be had, whyever. Fetched once. */
