@@ -15,6 +15,10 @@ struct Caller {
     std::optional<session::Account> token; // that it has shown
 
     [[nodiscard]] const session::Account& account() const { return token ? *token : address; }
+    // Whose limits hold; none: no one's.
+    [[nodiscard]] std::optional<session::Account> limited() const {
+        return local && !token ? std::nullopt : std::optional(account());
+    }
 };
 
 } // namespace froxel::net

@@ -220,11 +220,6 @@ struct Route {
     http::verb received = http::verb::post; // the method of bodies
 };
 
-// No limits of its own: none.
-std::optional<session::Account> accountOf(const Caller& caller) {
-    return caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
-}
-
 Response health(const Asked& asked) {
     const ServiceStatus status = asked.site->service->status();
     if (status.draining) {
@@ -290,7 +285,7 @@ HttpSite::CallOff still(const Asked& asked, const Done& done) {
 HttpSite::Received guestStill(const Asked& asked, uint64_t size_bytes) {
     StillAnswers::Asked still{asked.request, std::string(asked.path), asked.caller};
     return asked.site->guest_bodies->receive(
-        accountOf(asked.caller), viewOf(asked.request[http::field::content_type]), size_bytes,
+        asked.caller.limited(), viewOf(asked.request[http::field::content_type]), size_bytes,
         [site = asked.site, still = std::move(still)](auto scene, const Done& done) {
             auto asked_of = still;
             asked_of.guest = std::move(scene);
@@ -303,7 +298,7 @@ HttpSite::Received guestStill(const Asked& asked, uint64_t size_bytes) {
 }
 
 HttpSite::Received announceScene(const Asked& asked, uint64_t size_bytes) {
-    return asked.site->uploads->announce(accountOf(asked.caller), size_bytes);
+    return asked.site->uploads->announce(asked.caller.limited(), size_bytes);
 }
 
 // Below the listing's path: one scene, the server's or a client's.
@@ -330,7 +325,7 @@ HttpSite::CallOff upload(const Asked& asked, const Done& done) {
 }
 
 HttpSite::Received createUpload(const Asked& asked, uint64_t size_bytes) {
-    return asked.site->uploads->create(asked.request, accountOf(asked.caller), size_bytes);
+    return asked.site->uploads->create(asked.request, asked.caller.limited(), size_bytes);
 }
 
 HttpSite::Received receiveUpload(const Asked& asked, uint64_t size_bytes) {

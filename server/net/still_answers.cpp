@@ -128,10 +128,6 @@ std::variant<WantedStill, Response> StillAnswers::read(const Asked& asked) const
     return wanted;
 }
 
-std::optional<session::Account> StillAnswers::accountOf(const Caller& caller) {
-    return caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
-}
-
 std::string
 StillAnswers::tagOf(const Serving& serving, const Asked& asked, const WantedStill& wanted) const {
     const still::StillRequest& still = wanted.still;
@@ -158,7 +154,7 @@ HttpSite::CallOff StillAnswers::answer(const Asked& asked, const Done& done) {
         return draw(*status.serving, asked, done);
     }
     const auto early = std::make_shared<Early>();
-    early->account = asked.caller.local && !asked.caller.token ? "" : asked.caller.account().key;
+    early->account = asked.caller.limited().value_or(session::Account()).key;
     early->due = Clock::now() + std::chrono::duration_cast<Clock::duration>(kPatience);
     early->done = done;
     early->ask = [this, asked, done] { return answer(asked, done); };
@@ -279,7 +275,7 @@ HttpSite::CallOff StillAnswers::drawOne(const Serving& serving,
     const auto type = wanted.format->content_type;
     const auto ticket = desk_->ask(
         {serving.context, serving.port, serving.scenes}, std::move(wanted.still),
-        accountOf(asked.caller),
+        asked.caller.limited(),
         [done, tagged, type, thumbnail, any,
          guest = asked.guest](const still::StillOutcome& outcome) {
             if (const auto* refusal = std::get_if<still::StillRefusal>(&outcome)) {
@@ -304,7 +300,7 @@ HttpSite::CallOff StillAnswers::drawSeries(const Serving& serving,
     const auto sheet = wanted.format->facts ? std::nullopt : std::optional(wanted.format->codec);
     const auto series = std::make_shared<StillSeries>(
         StillSeries::Plan{std::move(wanted.views), std::move(wanted.still), sheet}, desk_,
-        long_work_, accountOf(asked.caller),
+        long_work_, asked.caller.limited(),
         [done, tagged, type, any = !asked.guest && hasAnything(asked.request),
          guest = asked.guest](StillSeries::Made made) {
             if (const auto* refusal = std::get_if<still::StillRefusal>(&made)) {

@@ -76,8 +76,6 @@ class StillAnswers final : public ServiceListener,
     [[nodiscard]] HttpSite::CallOff
     draw(const Serving& serving, const Asked& asked, const Done& done) const;
     [[nodiscard]] std::variant<WantedStill, Response> read(const Asked& asked) const;
-    // The caller's, where it has limits.
-    [[nodiscard]] static std::optional<session::Account> accountOf(const Caller& caller);
     [[nodiscard]] std::string
     tagOf(const Serving& serving, const Asked& asked, const WantedStill& wanted) const;
     // How what was asked of the desk is answered, with these headers.

@@ -9,17 +9,15 @@ export class ServerFiles {
   constructor(private readonly token: () => string) {}
 
   /** Of a path below the page's own. */
-  get(path: string): Promise<Response> {
+  get(path: string, method = 'GET'): Promise<Response> {
     const token = this.token();
     const headers: HeadersInit = token === '' ? {} : { Authorization: `Bearer ${token}` };
-    return fetch(new URL(path.replace(/^\//, ''), document.baseURI), { headers });
+    return fetch(new URL(path.replace(/^\//, ''), document.baseURI), { method, headers });
   }
 
   /** Whether scenes may be brought to this server. */
   async takesUploads(): Promise<boolean> {
-    const token = this.token();
-    const headers: HeadersInit = token === '' ? {} : { Authorization: `Bearer ${token}` };
-    const answer = await fetch(new URL('api/v1/uploads', document.baseURI), { method: 'OPTIONS', headers }).catch(() => null);
+    const answer = await this.get('api/v1/uploads', 'OPTIONS').catch(() => null);
     return answer?.headers.has('Tus-Version') ?? false;
   }
 
