@@ -12,7 +12,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages=(
     build-essential cmake ninja-build pkg-config
     libvulkan-dev glslang-tools spirv-tools
-    libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev
+    libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev libtinyobjloader-dev lib3mf-dev
     libglm-dev 'libboost-url1.81-dev|libboost-url-dev' libspdlog-dev libcli11-dev
     libturbojpeg0-dev libpng-dev libwebp-dev libzstd-dev wabt libopenexr-dev libstb-dev libvpx-dev
     libprotobuf-dev protobuf-compiler prometheus-cpp-dev libtomlplusplus-dev libssl-dev

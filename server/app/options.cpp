@@ -87,7 +87,7 @@ Result<std::filesystem::path> parseGlbPath(const std::string& text) {
 
 void addSceneOption(CommandBuilder& command, std::string& target, const std::string& shown) {
     command.text("--scene", "PATH|builtin", target, shown,
-                 "glTF 2.0 or GLB file, or the built-in hall");
+                 "glTF 2.0, GLB, VRM, OBJ, PLY, STL or 3MF file, or the built-in hall");
 }
 
 void addSandbox(CommandBuilder& command, bake::Sandbox& target) {
@@ -211,7 +211,7 @@ void addServe(CLI::App& app, Targets& targets) {
     command.group("Addresses and access");
     addSceneOption(command, options.scene, options.scene);
     addScenesFolder(command, options.scenes,
-                    "Folder of glTF and GLB files that viewers may switch to. The server notices "
+                    "Folder of scene files that viewers may switch to. The server notices "
                     "changes, and reads the folder again on SIGHUP");
     addSceneChoices(command, options.choices);
     addSandbox(command, options.sandbox);
@@ -351,7 +351,7 @@ void addInfo(CLI::App& app, Targets& targets) {
     addSceneOption(command, options.scene, "none");
     command.cli().add_option("FILE", options.scene, "Same as --scene; or a picture file");
     addScenesFolder(command, options.scenes,
-                    "Print only a table of all glTF and GLB files in this folder");
+                    "Print only a table of all scene files in this folder");
     addSandbox(command, options.sandbox);
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);

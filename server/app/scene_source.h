@@ -37,7 +37,7 @@ struct SceneReading {
     return {.process = {.sandbox = sandbox}};
 }
 
-// `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. Cameras that
+// `builtin` gives the built-in hall, anything else is read as a scene file. Cameras that
 // move stand where the animation begins. Errors with one line: kScene; kInvalidArgument where there
 // is no such animation or variant; kCancelled where `report` has it end. `reading`: of
 // a file.

@@ -65,8 +65,8 @@ FormParts::FormParts(gltf::FileOpener& opener, const std::string& boundary) : op
     const auto isScene = [](const Part& part) { return isSceneFile(part.name); };
     const auto count = std::ranges::count_if(parts_, isScene);
     if (count != 1) {
-        gltf::fail("has " + std::to_string(count) +
-                   " parts with a filename that ends in .gltf, .glb or .vrm; expected one");
+        gltf::fail("has " + std::to_string(count) + " parts with a filename that ends in " +
+                   std::string(kSceneEndingsText) + "; expected one");
     }
     scene_ = static_cast<size_t>(std::ranges::find_if(parts_, isScene) - parts_.begin());
 }

@@ -16,8 +16,8 @@ class FormParts final : public gltf::FileOpener {
   public:
     static constexpr size_t kMostParts = 512;
 
-    // Throws gltf::Failure: it is no form of this boundary, or not one part is named *.gltf,
-    // *.glb or *.vrm.
+    // Throws gltf::Failure: it is no form of this boundary, or not one part
+    // is a scene by its name.
     FormParts(gltf::FileOpener& opener, const std::string& boundary);
 
     // Of the part that is the scene.

@@ -45,6 +45,9 @@ void limitResources(const ResourceLimits& limits) {
     if (limits.address_bytes > 0) {
         limit(RLIMIT_AS, limits.address_bytes);
     }
+    if (limits.data_bytes > 0) {
+        limit(RLIMIT_DATA, limits.data_bytes);
+    }
     if (limits.output_bytes > 0) {
         limit(RLIMIT_FSIZE, limits.output_bytes);
     }
@@ -123,6 +126,8 @@ constexpr std::array kAllowed = {SCMP_SYS(read),
                                  SCMP_SYS(exit),
                                  SCMP_SYS(exit_group),
                                  SCMP_SYS(getpid),
+                                 SCMP_SYS(getppid), // libuuid, of lib3mf
+                                 SCMP_SYS(getuid),
                                  SCMP_SYS(gettid)};
 
 // What a C library tries and can do without.

@@ -16,6 +16,7 @@ struct Isolation {
 
 struct ResourceLimits {
     uint64_t address_bytes = 0; // of memory, code and stacks; 0: no limit
+    uint64_t data_bytes = 0;    // of memory that is written to; 0: no limit
     uint64_t output_bytes = 0;  // of what it writes; 0: no limit
     uint32_t cpu_s = 0;         // of all threads together; 0: no limit
 };

@@ -5,8 +5,8 @@
 #include "bake/form_parts.h"
 #include "bake/isolation.h"
 #include "core/write_all.h"
+#include "formats/scene_loader.h"
 #include "gltf/file_opener.h"
-#include "gltf/gltf_loader.h"
 #include "gltf/load_result.h"
 
 #include <algorithm>
@@ -127,6 +127,14 @@ uint64_t addressBytes(uint64_t memory_bytes) {
     return memory_bytes > std::numeric_limits<uint64_t>::max() / 4 ? 0 : 2 * memory_bytes + kBeside;
 }
 
+// What is written to, beside the output: libraries make room for what a file says before they see
+// that it lies.
+uint64_t dataBytes(uint64_t memory_bytes) {
+    constexpr uint64_t kBeside = 1ULL << 30U;
+    return memory_bytes > std::numeric_limits<uint64_t>::max() / 4 ? 0
+                                                                   : memory_bytes / 2 * 3 + kBeside;
+}
+
 Message read(Channel& channel, const Task& task, Output& output) {
     RemoteOpener remote(channel, output);
     const auto report = [&](const Progress& now) {
@@ -141,7 +149,7 @@ Message read(Channel& channel, const Task& task, Output& output) {
         }
         gltf::FileOpener& opener = form ? static_cast<gltf::FileOpener&>(*form) : remote;
         const std::string& name = form ? form->sceneName() : task.file;
-        auto loaded = gltf::loadFrom(opener, name, report, task.memory_bytes);
+        auto loaded = formats::loadFrom(opener, name, report, task.memory_bytes);
         if (loaded) {
             pool_bytes = output.write(*loaded);
         }
@@ -161,8 +169,10 @@ int runReader() {
     }
     const uint64_t most_bytes = addressBytes(task->memory_bytes);
     Output output(std::min(task->memory_bytes, kMostPool));
-    const Isolation isolation =
-        isolate({.address_bytes = most_bytes, .output_bytes = most_bytes, .cpu_s = task->cpu_s});
+    const Isolation isolation = isolate({.address_bytes = most_bytes,
+                                         .data_bytes = dataBytes(task->memory_bytes),
+                                         .output_bytes = most_bytes,
+                                         .cpu_s = task->cpu_s});
     const bool told = channel.send(Message{.say = Say::kIsolated, .isolation = isolation});
     return told && channel.send(read(channel, *task, output)) ? 0 : 1;
 }

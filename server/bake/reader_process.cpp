@@ -4,6 +4,7 @@
 #include "bake/flat_scene.h"
 #include "bake/reader.h"
 #include "core/text.h"
+#include "formats/scene_loader.h"
 #include "gltf/load_result.h"
 #include "gltf/scene_folder.h"
 
@@ -322,7 +323,7 @@ Result<scene::Scene> load(const fs::path& file,
                           const ProgressReport& report,
                           const gltf::LoadLimits& limits) {
     if (process.sandbox == Sandbox::kOff) {
-        return gltf::load(file, report, limits);
+        return formats::load(file, report, limits);
     }
     return gltf::resultOf(file, [&] {
         gltf::SceneFolder folder(file, limits.no_link);

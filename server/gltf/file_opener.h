@@ -4,17 +4,20 @@
 #include "core/file_descriptor.h"
 #include "core/kept_bytes.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace froxel::gltf {
 
 struct OpenedFile {
     FileDescriptor descriptor; // a regular file, for reading
     uint64_t size_bytes = 0;
-    std::string shown{}; // its name as messages have it, printable
-    uint64_t begin = 0;  // where in it the bytes are
+    std::string shown{};            // its name as messages have it, printable
+    uint64_t begin = 0;             // where in it the bytes are
+    std::vector<std::byte> bytes{}; // instead of a descriptor: the file itself
 };
 
 // Of one thread. All throw Failure: Unusable where there is no such file, or none that may be read.

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace froxel::gltf {
 namespace {
@@ -25,17 +26,12 @@ bool isLfsPointer(const Bytes& bytes) {
 
 } // namespace
 
-Bytes SceneFiles::readSceneFile() {
-    return readAll(opener_.openScene(), "the scene");
-}
-
-Bytes SceneFiles::readAll(const OpenedFile& file, const std::string& user) {
+Bytes readAll(const OpenedFile& file, const std::string& user, const std::function<void()>& ask) {
     const auto size = static_cast<size_t>(file.size_bytes);
-    bytes_.take(size, user);
     Bytes bytes(size);
     size_t done = 0;
     while (done < size) {
-        progress_.ask();
+        ask();
         const ssize_t got =
             ::pread(file.descriptor.get(), bytes.data() + done, std::min(size - done, kReadAtOnce),
                     static_cast<off_t>(file.begin + done));
@@ -55,7 +51,18 @@ Bytes SceneFiles::readAll(const OpenedFile& file, const std::string& user) {
             user + " names '" + file.shown +
                 "', which is a Git LFS pointer; expected the file itself; git lfs pull fetches it");
     }
-    file_bytes_ += size;
+    return bytes;
+}
+
+Bytes SceneFiles::readSceneFile() {
+    return take(opener_.openScene(), "the scene");
+}
+
+Bytes SceneFiles::take(OpenedFile file, const std::string& user) {
+    bytes_.take(file.size_bytes, user);
+    Bytes bytes =
+        file.descriptor ? readAll(file, user, [this] { progress_.ask(); }) : std::move(file.bytes);
+    file_bytes_ += bytes.size();
     return bytes;
 }
 
@@ -64,7 +71,7 @@ Bytes SceneFiles::read(const std::string& uri, const std::string& user) {
         bytes_.take(uri.size(), user); // at most; the JSON text's limit bounds it
         return bytesOfDataUri(uri, user);
     }
-    return readAll(opener_.open(relativePathFromUri(uri, user), user), user);
+    return take(opener_.open(relativePathFromUri(uri, user), user), user);
 }
 
 } // namespace froxel::gltf

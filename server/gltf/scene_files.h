@@ -7,9 +7,15 @@
 #include "gltf/load_progress.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace froxel::gltf {
+
+// All of a file. `ask` is called between its parts, and may throw. Throws Failure where it cannot
+// be read; Unusable for a Git LFS pointer.
+[[nodiscard]] Bytes readAll(
+    const OpenedFile& file, const std::string& user, const std::function<void()>& ask = [] {});
 
 class SceneFiles {
   public:
@@ -32,7 +38,7 @@ class SceneFiles {
     [[nodiscard]] uint64_t fileBytes() const { return file_bytes_; }
 
   private:
-    [[nodiscard]] Bytes readAll(const OpenedFile& file, const std::string& user);
+    [[nodiscard]] Bytes take(OpenedFile file, const std::string& user);
 
     FileOpener& opener_;
     LoadProgress& progress_;

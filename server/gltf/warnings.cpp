@@ -30,11 +30,12 @@ void tellTooMany(const std::string& things, size_t left_out, Warnings& warnings)
 }
 
 void Warnings::moveInto(scene::Scene& scene) {
+    kept_.insert(kept_.begin(), scene.warnings.begin(), scene.warnings.end());
     std::stable_sort(kept_.begin(), kept_.end(), [](const auto& left, const auto& right) {
         return left.severity < right.severity;
     });
     scene.warnings = std::move(kept_);
-    scene.warnings_left_out = left_out_count_;
+    scene.warnings_left_out += left_out_count_;
 }
 
 } // namespace froxel::gltf

@@ -103,7 +103,7 @@ class Warnings {
     // `message` is one printable line; the same place and words count once while they are kept.
     void add(const WarningKind& kind, std::string pointer, std::string message);
 
-    // Into `scene.warnings`, the gravest first.
+    // To those of `scene.warnings`, the gravest first.
     void moveInto(scene::Scene& scene);
 
   private:

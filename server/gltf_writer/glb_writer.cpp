@@ -1,6 +1,7 @@
 #include "gltf_writer/glb_writer.h"
 
 #include "gltf_writer/binary_buffer.h"
+#include "gltf_writer/glb_frame.h"
 #include "gltf_writer/material_json.h"
 #include "gltf_writer/node_json.h"
 #include "gltf_writer/png_image.h"
@@ -10,17 +11,15 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <limits>
 #include <set>
+#include <span>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace froxel::gltf_writer {
 namespace {
 
-constexpr uint32_t kGlbMagic = 0x46546C67;  // "glTF"
-constexpr uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
-constexpr uint32_t kBinChunk = 0x004E4942;  // "BIN"
 constexpr const char* kVariantsExtension = "KHR_materials_variants";
 
 // Adds `value` under `key` unless it is empty: glTF forbids empty arrays.
@@ -200,10 +199,9 @@ class Document {
     std::set<std::string> extensions_;
 };
 
-template <class T>
-void writeWords(std::ofstream& file, const T& words) {
-    file.write(reinterpret_cast<const char*>(words.data()),
-               static_cast<std::streamsize>(words.size() * sizeof(uint32_t)));
+void write(std::ofstream& file, std::span<const std::byte> bytes) {
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
 }
 
 } // namespace
@@ -219,28 +217,18 @@ Result<void> writeGlb(const scene::Scene& scene, const std::filesystem::path& pa
     } catch (const Json::type_error&) { // only dump() throws it, for text that is not UTF-8
         return Error{ErrorCode::kScene, path.string() + ": a name in the scene is not UTF-8 text"};
     }
-    json.resize((json.size() + 3) / 4 * 4, ' ');
     const std::vector<std::byte>& bytes = document.bytes();
-    const size_t padding = (4 - bytes.size() % 4) % 4;
-    const size_t bin_size = bytes.size() + padding;
-    const size_t total = 12 + 8 + json.size() + (bin_size != 0 ? 8 + bin_size : 0);
-    if (total > std::numeric_limits<uint32_t>::max()) {
-        return Error{ErrorCode::kScene, path.string() + ": the scene takes " +
-                                            std::to_string(total) +
-                                            " bytes; a GLB file holds at most 4294967295"};
+    const auto frame = glbFrame(std::move(json), bytes.size());
+    if (!frame) {
+        return Error{frame.error().code, path.string() + ": the scene " + frame.error().message};
     }
     errno = 0;
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     const bool opened = file.is_open();
-    const auto word = [](size_t size) { return static_cast<uint32_t>(size); };
-    writeWords(file, std::array{kGlbMagic, 2U, word(total), word(json.size()), kJsonChunk});
-    file.write(json.data(), static_cast<std::streamsize>(json.size()));
-    if (bin_size != 0) {
-        writeWords(file, std::array{word(bin_size), kBinChunk});
-        file.write(reinterpret_cast<const char*>(bytes.data()),
-                   static_cast<std::streamsize>(bytes.size()));
-        file.write("\0\0\0", static_cast<std::streamsize>(padding));
-    }
+    write(file, frame->before);
+    write(file, bytes);
+    constexpr std::array<std::byte, 3> kZeros{};
+    write(file, std::span(kZeros).first(frame->total_bytes - frame->before.size() - bytes.size()));
     file.close();
     if (!file) {
         const std::string reason = errno != 0 ? std::strerror(errno) : "input/output error";

@@ -93,10 +93,9 @@ std::optional<StoreRefusal> whyMalformed(const GuestStore::Announced& announced,
         scenes += isSceneFile(name) ? 1U : 0U;
     }
     if (scenes != 1) {
-        return refusal(
-            Why::kMalformed, "files",
-            fmt::format("files has {} paths that end in .glb, .gltf or .vrm; expected one",
-                        scenes));
+        return refusal(Why::kMalformed, "files",
+                       fmt::format("files has {} paths that end in {}; expected one", scenes,
+                                   kSceneEndingsText));
     }
     return {};
 }

@@ -76,7 +76,7 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
 
     struct Announced {
         struct File {
-            std::string name; // as the scene refers to it; one ends in .glb, .gltf or .vrm
+            std::string name; // as the scene refers to it; one is a scene by it
             uint64_t size_bytes = 0;
         };
         std::vector<File> files;

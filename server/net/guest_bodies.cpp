@@ -2,6 +2,7 @@
 
 #include "core/text.h"
 #include "guest/memory_file.h"
+#include "net/body_kind.h"
 
 #include <boost/beast/core/string.hpp>
 #include <boost/beast/http/rfc7230.hpp>
@@ -27,24 +28,6 @@ Response putOff(http::status status, const char* code, const std::string& text) 
     Response response = refused(status, code, text);
     response.set(http::field::retry_after, "5");
     return response;
-}
-
-enum class Kind : uint8_t { kGlb, kGltf, kOther, kNotYet };
-
-// By its first bytes, however few have come.
-Kind kindOf(std::string_view begin) {
-    constexpr std::string_view kMagic = "glTF";
-    constexpr std::string_view kBlank = " \t\r\n\xEF\xBB\xBF";
-    constexpr size_t kMostBlank = 256;
-    if (begin.starts_with(kMagic)) {
-        return Kind::kGlb;
-    }
-    const size_t first = begin.find_first_not_of(kBlank);
-    if (kMagic.starts_with(begin) ||
-        (first == std::string_view::npos && begin.size() < kMostBlank)) {
-        return Kind::kNotYet;
-    }
-    return first != std::string_view::npos && begin[first] == '{' ? Kind::kGltf : Kind::kOther;
 }
 
 // Of the parts of a form (RFC 7578); none: it is no form.
@@ -105,19 +88,23 @@ class GuestBodies::Body final : public RequestBody {
          std::shared_ptr<Room> room,
          guest::MemoryFile file,
          std::string form_boundary,
+         uint64_t size_bytes,
          Then then)
         : shelf_(std::move(shelf)), room_(std::move(room)), file_(std::move(file)),
-          form_boundary_(std::move(form_boundary)), then_(std::move(then)) {}
+          form_boundary_(std::move(form_boundary)), size_bytes_(size_bytes),
+          then_(std::move(then)) {
+        if (!form_boundary_.empty()) {
+            name_ = "form";
+        }
+    }
 
     std::optional<Response> take(std::span<const std::byte> bytes) override {
-        if (form_boundary_.empty() && kind_ == Kind::kNotYet) {
-            begin_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-            kind_ = kindOf(begin_);
-            if (kind_ == Kind::kOther) {
+        if (!name_) {
+            const auto more = bytes.first(std::min(bytes.size(), kMostOfKind - begin_.size()));
+            begin_.append(reinterpret_cast<const char*>(more.data()), more.size());
+            name_ = sceneNameOf(begin_, size_bytes_);
+            if (name_ && name_->empty()) {
                 return noScene();
-            }
-            if (kind_ != Kind::kNotYet) {
-                begin_ = {};
             }
         }
         if (auto refused = room_->grow(bytes.size())) {
@@ -130,13 +117,11 @@ class GuestBodies::Body final : public RequestBody {
     }
 
     HttpSite::CallOff complete(std::function<void(LateAnswer)> done) override {
-        if (form_boundary_.empty() && kind_ == Kind::kNotYet) {
+        if (!name_) { // fewer bytes than were announced
             done({noScene()});
             return [] {};
         }
-        auto file = std::move(file_).complete(!form_boundary_.empty() ? "form"
-                                              : kind_ == Kind::kGlb   ? "scene.glb"
-                                                                      : "scene.gltf");
+        auto file = std::move(file_).complete(std::string(*name_));
         if (!file) {
             done({putOff(http::status::service_unavailable, "capacity", file.error().message)});
             return [] {};
@@ -151,7 +136,8 @@ class GuestBodies::Body final : public RequestBody {
   private:
     Response noScene() const {
         return refused(http::status::unsupported_media_type, "unsupported",
-                       fmt::format("begins with \"{}\"; expected a GLB or glTF file",
+                       fmt::format("begins with \"{}\"; expected a GLB, glTF, OBJ, PLY, STL or "
+                                   "3MF file",
                                    printable(begin_.substr(0, 8))));
     }
 
@@ -159,9 +145,10 @@ class GuestBodies::Body final : public RequestBody {
     std::shared_ptr<Room> room_;
     guest::MemoryFile file_;
     const std::string form_boundary_; // empty: it is no form
+    const uint64_t size_bytes_;       // as announced
     const Then then_;
-    std::string begin_; // until the kind is known
-    Kind kind_ = Kind::kNotYet;
+    std::string begin_;                    // until the name is known
+    std::optional<std::string_view> name_; // as sceneNameOf() has it, or of the form
 };
 
 HttpSite::Received GuestBodies::receive(const std::optional<session::Account>& account,
@@ -174,7 +161,7 @@ HttpSite::Received GuestBodies::receive(const std::optional<session::Account>& a
     }
     if (size_bytes == 0) {
         return refused(http::status::length_required, "malformed",
-                       "is missing; expected a GLB or glTF file as the body, with Content-Length");
+                       "is missing; expected a scene's file as the body, with Content-Length");
     }
     if (size_bytes > most_bytes_) {
         return refused(
@@ -199,7 +186,8 @@ HttpSite::Received GuestBodies::receive(const std::optional<session::Account>& a
         return putOff(http::status::service_unavailable, "capacity", file.error().message);
     }
     return std::make_unique<Body>(shelf_, std::make_shared<Room>(shared_from_this(), account),
-                                  std::move(*file), boundary.value_or(""), std::move(then));
+                                  std::move(*file), boundary.value_or(""), size_bytes,
+                                  std::move(then));
 }
 
 std::optional<Response> GuestBodies::whyNoRoom(const std::optional<session::Account>& account,

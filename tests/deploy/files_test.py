@@ -581,7 +581,7 @@ PACKAGES = {
     "Protobuf": "libprotobuf-dev", "Python3": "python3", "Threads": None, "TinyGLTF": "libtinygltf-dev",
     "Vulkan": "libvulkan-dev", "ZLIB": None, "benchmark": "libbenchmark-dev", "draco": "libdraco-dev",
     "glm": "libglm-dev", "glslangValidator": "glslang-tools", "libturbojpeg": "libturbojpeg0-dev",
-    "libseccomp": "libseccomp-dev", "libwebp": "libwebp-dev", "libzstd": "libzstd-dev",
+    "lib3mf": "lib3mf-dev", "tinyobjloader": "libtinyobjloader-dev", "libseccomp": "libseccomp-dev", "libwebp": "libwebp-dev", "libzstd": "libzstd-dev",
     "meshoptimizer": "libmeshoptimizer-dev", "nlohmann_json": "nlohmann-json3-dev",
     "prometheus-cpp-core": "prometheus-cpp-dev", "spdlog": "libspdlog-dev", "spirv-val": "spirv-tools", "stb": "libstb-dev",
     "tomlplusplus": "libtomlplusplus-dev", "vpx": "libvpx-dev", "wasm2c": "wabt",
@@ -606,6 +606,7 @@ class Packages(unittest.TestCase):
             asked |= set(re.findall(r"find_package\((\w+)", text))
             asked |= set(re.findall(r"pkg_check_modules\(\w+ REQUIRED IMPORTED_TARGET ([\w-]+)", text))
             asked |= set(re.findall(r"find_program\(\w+ ([\w-]+) REQUIRED\)", text))
+            asked |= set(re.findall(r"find_path\((\w+)_headers", text))
         self.assertIn("libzstd", asked)  # or nothing is found
         listed = run("bash", "-c", f"source {DEPLOY}/common.sh && "
                      "printf '%s\\n' \"${build_packages[@]}\" \"${test_packages[@]}\"").split()

@@ -19,7 +19,7 @@ from pathlib import Path
 SKIPPED = 77  # SKIP_RETURN_CODE of CMakeLists.txt
 PACKAGES = """wabt libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev libglm-dev libboost1.83-dev
 libspdlog-dev libfmt-dev libcli11-dev libturbojpeg0-dev libpng-dev libwebp-dev libzstd-dev libopenexr-dev libimath-dev
-libstb-dev libvpx-dev libseccomp-dev libpoco-dev libvulkan-dev libtomlplusplus-dev prometheus-cpp-dev""".split()
+libstb-dev libvpx-dev libseccomp-dev libpoco-dev libtinyobjloader-dev lib3mf-dev libvulkan-dev libtomlplusplus-dev prometheus-cpp-dev""".split()
 KEYRING = "/usr/share/keyrings/debian-archive-keyring.gpg"
 WASM_RUNTIME = "/usr/src/wasm2c"
 WASM_SCRIPT = Path(__file__).resolve().parents[2] / "server/ktx2/wasm_runtime.cmake"

@@ -60,7 +60,7 @@ export class BringCard {
       const scenes = scenesIn(files);
       const [only] = scenes;
       if (!only) {
-        this.say('There is no scene among these files. Drop a .glb file, or a .gltf file with its folder.', [this.close()]);
+        this.say('There is no scene among these files. Drop a glTF, GLB, OBJ, PLY, STL or 3MF file, with its folder if it has one.', [this.close()]);
       } else if (scenes.length === 1) {
         await this.choose(only, files);
       } else {

@@ -8,7 +8,7 @@ export interface SceneFiles {
   readonly missing: readonly string[]; // paths that the scene names
 }
 
-export const isScene = (path: string): boolean => /\.(glb|gltf|vrm)$/i.test(path);
+export const isScene = (path: string): boolean => /\.(glb|gltf|vrm|obj|ply|stl|3mf)$/i.test(path);
 
 export const scenesIn = (files: readonly BroughtFile[]): readonly BroughtFile[] =>
   files.filter(({ path }) => isScene(path));
@@ -23,16 +23,46 @@ export async function sceneFiles(scene: BroughtFile, all: readonly BroughtFile[]
   const byPath = new Map(all.map((file) => [file.path.normalize(), file]));
   const files: BroughtFile[] = [{ path: scene.path.slice(folder.length), blob: scene.blob }];
   const missing: string[] = [];
-  for (const path of await namedBy(scene.blob)) {
+  const add = (path: string): Blob | undefined => {
     const file = byPath.get((folder + path).normalize());
+    if (file && files.some((known) => known.path === path)) return file.blob;
     if (file) files.push({ path, blob: file.blob });
-    else missing.push(path);
+    else if (!missing.includes(path)) missing.push(path);
+    return file?.blob;
+  };
+  for (const path of await namedBy(scene)) {
+    const blob = add(path);
+    if (blob && /\.mtl$/i.test(path)) imagesOf(await blob.text()).forEach(add);
   }
   return { files, missing };
 }
 
-/** The files that a glTF or GLB file names, each once, as paths from its folder. What is no scene names none. */
-async function namedBy(blob: Blob): Promise<readonly string[]> {
+/** The files that a scene's own file names, each once, as paths from its folder. */
+async function namedBy({ path, blob }: BroughtFile): Promise<readonly string[]> {
+  if (/\.obj$/i.test(path)) return matches(await blob.text(), /^[ \t]*mtllib[ \t]+(.+?)[ \t\r]*$/gm);
+  if (/\.ply$/i.test(path)) {
+    return matches(await blob.slice(0, kPlyHeader).text(), /^comment TextureFile (.+?)[ \t\r]*$/gm).slice(0, 1);
+  }
+  return /\.(stl|3mf)$/i.test(path) ? [] : namedByGltf(blob);
+}
+
+const kPlyHeader = 65536;
+
+const matches = (text: string, pattern: RegExp): readonly string[] =>
+  Array.from(text.matchAll(pattern), ([, name = '']) => pathOfName(name));
+
+/** Of an MTL file: the images that the server reads, without the options before their names. */
+const imagesOf = (text: string): readonly string[] =>
+  matches(text, /^[ \t]*(?:map_Kd|map_d|map_Ke|map_Pr|map_Pm|norm)(?:[ \t]+-[a-z]+(?:[ \t]+(?:[-+.\d]+|on|off))*)*[ \t]+(.+?)[ \t\r]*$/gm);
+
+/** With slashes; of another machine's absolute path the name alone. */
+function pathOfName(name: string): string {
+  const path = name.replace(/\\/g, '/');
+  return /^(\/|[a-z]:)/i.test(path) ? path.slice(path.lastIndexOf('/') + 1) : withoutDots(path);
+}
+
+/** Of a glTF or GLB file. What is none names none. */
+async function namedByGltf(blob: Blob): Promise<readonly string[]> {
   let json: { readonly buffers?: unknown; readonly images?: unknown } | null;
   try {
     json = JSON.parse(await jsonOf(blob)) as typeof json;
@@ -58,11 +88,14 @@ function pathOf(uri: string): string {
   } catch {
     // A % that stands for itself.
   }
-  return text
+  return withoutDots(text);
+}
+
+const withoutDots = (path: string): string =>
+  path
     .split('/')
     .filter((part) => part !== '.' && part !== '')
     .join('/');
-}
 
 const kGlbHeader = 20; // and of the first chunk, which is the JSON: glTF 2.0, 4.4.2
 

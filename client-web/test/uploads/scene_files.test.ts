@@ -43,6 +43,22 @@ describe('sceneFiles', () => {
     expect((await sceneFiles(scene, [scene])).missing).toEqual([]);
   });
 
+  it('ObjNeedsItsMaterials_AndTheImagesOfThose', async () => {
+    const scene = file('car/car.obj', '# a car\nmtllib ./car.mtl\r\nv 0 0 0\n  mtllib gone.mtl\n');
+    const mtl = file('car/car.mtl', 'newmtl a\nmap_Kd -s 2 2 -clamp on C:\\tex\\red paint.png\r\nnorm tex\\n.png\nmap_Ks not_read.png\n');
+    const all = [scene, mtl, file('car/red paint.png')];
+    const { files, missing } = await sceneFiles(scene, all);
+    expect(files.map(({ path }) => path)).toEqual(['car.obj', 'car.mtl', 'red paint.png']);
+    expect(missing).toEqual(['tex/n.png', 'gone.mtl']);
+  });
+
+  it('PlyNeedsItsTexture_AndOthersNothing', async () => {
+    const ply = file('a.ply', 'ply\nformat ascii 1.0\ncomment TextureFile skin.jpg\nend_header\n');
+    expect((await sceneFiles(ply, [ply])).missing).toEqual(['skin.jpg']);
+    const stl = file('a.stl', 'solid comment TextureFile skin.jpg');
+    expect(await sceneFiles(stl, [stl])).toEqual({ files: [stl], missing: [] });
+  });
+
   it('Names_AreTheSame_HoweverTheirAccentsAreWritten', async () => {
     const scene = file('a.gltf', gltf('\u00e4.bin'));
     expect((await sceneFiles(scene, [scene, file('a\u0308.bin')])).missing).toEqual([]);
@@ -50,6 +66,6 @@ describe('sceneFiles', () => {
 });
 
 it('scenesIn_IsByTheEnding', () => {
-  const paths = ['a.GLB', 'b/c.gltf', 'd.vrm', 'e.bin', 'glb'];
-  expect(scenesIn(paths.map((path) => file(path))).map(({ path }) => path)).toEqual(['a.GLB', 'b/c.gltf', 'd.vrm']);
+  const paths = ['a.GLB', 'b/c.gltf', 'd.vrm', 'e.bin', 'glb', 'f.obj', 'f.mtl', 'g.ply', 'h.STL', 'i.3mf'];
+  expect(scenesIn(paths.map((path) => file(path))).map(({ path }) => path)).toEqual(['a.GLB', 'b/c.gltf', 'd.vrm', 'f.obj', 'g.ply', 'h.STL', 'i.3mf']);
 });

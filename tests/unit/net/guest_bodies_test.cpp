@@ -47,7 +47,8 @@ class GuestBodiesTest : public testing::Test {
         auto received = receive({}, text.size(), content_type);
         auto& body = std::get<std::unique_ptr<RequestBody>>(received);
         const auto told = [](const Response& refused) {
-            EXPECT_NE(refused.body().find("expected a GLB or glTF file"), std::string::npos);
+            EXPECT_NE(refused.body().find("expected a GLB, glTF, OBJ, PLY, STL or 3MF file"),
+                      std::string::npos);
             return refused.result();
         };
         for (size_t at = 0; at < text.size(); at += part_bytes) {
@@ -72,7 +73,17 @@ TEST_F(GuestBodiesTest, Kind_IsByTheFirstBytes) {
     EXPECT_EQ(send("glTF and more"), http::status::ok);
     EXPECT_EQ(send("{}"), http::status::ok);
     EXPECT_EQ(send("\xEF\xBB\xBF \n{\"asset\":{}}"), http::status::ok);
-    EXPECT_EQ(names_, (std::vector<std::string>{"scene.glb", "scene.gltf", "scene.gltf"}));
+    EXPECT_EQ(send("PK\x03\x04 and more"), http::status::ok);
+    EXPECT_EQ(send("ply\nformat ascii 1.0\n"), http::status::ok);
+    EXPECT_EQ(send("solid cube\n facet"), http::status::ok);
+    EXPECT_EQ(send("\r\n# of a modeller\nv 0 0 0\n"), http::status::ok);
+    EXPECT_EQ(send(std::string(80, 'x') + std::string("\1\0\0\0", 4) + std::string(50, 'x')),
+              http::status::ok);
+    EXPECT_EQ(names_,
+              (std::vector<std::string>{"scene.glb", "scene.gltf", "scene.gltf", "scene.3mf",
+                                        "scene.ply", "scene.stl", "scene.obj", "scene.stl"}));
+    EXPECT_EQ(send(std::string(80, 'x') + std::string("\2\0\0\0", 4) + std::string(50, 'x')),
+              http::status::unsupported_media_type);
     for (const char* other : {"PK\x03\x04", "<html>", "glT", "  ", "solid ", "\x89PNG"}) {
         EXPECT_EQ(send(other), http::status::unsupported_media_type) << other;
     }
