@@ -22,6 +22,7 @@ export async function startServer(port = 0, more: readonly string[] = []): Promi
   options.push('--drain-seconds', '1', '--look', 'rainbow', ...more); // nothing that a test did not turn on
   const child = spawn(binary, ['serve', ...options], {
     stdio: ['ignore', 'pipe', 'pipe'],
+    env: { FROXEL_UPLOADS: 'off', ...process.env }, // a test turns them on, with a folder of its own
   });
   const log: string[] = []; // the last of what it said
   child.stderr.on('data', (chunk: Buffer) => {

@@ -26,7 +26,7 @@ inline constexpr std::array<std::string_view, 3> kUploadsNames = {"off", "auto",
 
 // Scenes that clients bring and that stay for a while (guest::StoreLimits).
 struct UploadOptions {
-    UploadsFrom from = UploadsFrom::kOff;
+    UploadsFrom from = UploadsFrom::kAuto;
     std::filesystem::path folder; // empty: beside the shaders' cache
     uint32_t file_mib = 512;
     uint32_t all_mib = 5 * 1024;

@@ -176,7 +176,7 @@ GuestStore::GuestStore(fs::path folder, const StoreLimits& limits, Time now)
     if (!broken.empty()) {
         spdlog::warn("event=uploads_dropped count={} reason=\"without a manifest\"", broken.size());
     }
-    removeFolders(broken);
+    removeFolders(broken, Removal::kFailed);
     (void)expire(now);
 }
 
@@ -236,7 +236,13 @@ StoreResult<void> GuestStore::writeManifest(const std::string& id, const Scene& 
     return error == 0 ? StoreResult<void>() : diskFailed(error);
 }
 
-void GuestStore::removeFolders(const Gone& gone) const {
+void GuestStore::removeFolders(const Gone& gone, Removal why) {
+    if (gone.empty()) {
+        return;
+    }
+    const auto reason = static_cast<size_t>(why);
+    removed_total_[reason] += gone.size();
+    spdlog::info("event=uploads_removed count={} reason={}", gone.size(), kRemovals[reason]);
     for (const std::string& id : gone) {
         std::error_code failed;
         fs::remove_all(folderOf(id), failed);
@@ -244,9 +250,7 @@ void GuestStore::removeFolders(const Gone& gone) const {
             spdlog::warn("event=upload_not_removed reason={}", logValue(failed.message()));
         }
     }
-    if (!gone.empty()) {
-        tell_();
-    }
+    tell_();
 }
 
 GuestStore::Time GuestStore::dueOf(const Scene& scene) const {
@@ -261,9 +265,16 @@ uint64_t GuestStore::bytesOf(const std::string* account) const {
     return sum;
 }
 
-uint64_t GuestStore::bytes() const {
+GuestStore::Counts GuestStore::counts() const {
+    Counts counts;
+    counts.completed_total = completed_total_;
+    std::ranges::copy(removed_total_, counts.removed_total.begin());
     const std::lock_guard lock(mutex_);
-    return bytesOf(nullptr);
+    counts.bytes = bytesOf(nullptr);
+    counts.ready = static_cast<uint64_t>(std::ranges::count_if(
+        scenes_, [](const auto& entry) { return entry.second.state == State::kReady; }));
+    counts.receiving = scenes_.size() - counts.ready;
+    return counts;
 }
 
 GuestStore::Scenes::iterator GuestStore::oldestOf(const std::string* account) {
@@ -363,7 +374,7 @@ GuestStore::begin(const Announced& announced, const std::string& account, Time n
             }
         }
     }
-    removeFolders(gone);
+    removeFolders(gone, Removal::kEvicted);
     if (refused) {
         return std::move(*refused);
     }
@@ -379,10 +390,10 @@ GuestStore::begin(const Announced& announced, const std::string& account, Time n
                 drop(found, gone);
             }
         }
-        removeFolders(gone);
+        removeFolders(gone, Removal::kFailed);
         return written.error();
     }
-    Begun begun{id, scene.owner_key, {}};
+    Begun begun{id, scene.owner_key, {}, dueOf(scene)};
     for (size_t place = 0; place < scene.files.size(); ++place) {
         begun.uploads.push_back(scene.upload_key + "-" + std::to_string(place));
     }
@@ -523,13 +534,18 @@ GuestStore::endUpload(const std::string& id, size_t place, Time now) {
     if (const int error = sync(id, to_sync); error != 0) {
         return error == ENOENT ? unknown() : diskFailed(error);
     }
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     const auto found = scenes_.find(id);
     if (found == scenes_.end()) {
         return unknown();
     }
     found->second.state = State::kReady;
-    return standingIn(found->second, found->second.files[place]);
+    const Standing standing = standingIn(found->second, found->second.files[place]);
+    const uint64_t bytes = found->second.bytes();
+    lock.unlock();
+    ++completed_total_;
+    spdlog::info("event=upload_ready bytes={} files={}", bytes, to_sync);
+    return standing;
 }
 
 int GuestStore::sync(const std::string& id, size_t file_count) const {
@@ -559,7 +575,7 @@ StoreResult<void> GuestStore::terminate(const std::string& upload) {
         }
         drop(scenes_.find(scene->first), gone);
     }
-    removeFolders(gone);
+    removeFolders(gone, Removal::kDeleted);
     return {};
 }
 
@@ -621,7 +637,7 @@ bool GuestStore::remove(const std::string& id, const std::string& owner_key) {
         }
         drop(scene, gone);
     }
-    removeFolders(gone);
+    removeFolders(gone, Removal::kDeleted);
     return true;
 }
 
@@ -641,7 +657,7 @@ std::optional<GuestStore::Time> GuestStore::expire(Time now) {
             }
         }
     }
-    removeFolders(gone);
+    removeFolders(gone, Removal::kExpired);
     return next;
 }
 

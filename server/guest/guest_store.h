@@ -18,6 +18,8 @@
 
 #include <boost/system/result.hpp>
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -86,6 +88,7 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
         std::string id;                   // who knows it may see the scene
         std::string owner_key;            // ... may remove it
         std::vector<std::string> uploads; // ... may send the file of the same place
+        Time expires{};                   // unless something comes
     };
     struct Standing {
         uint64_t offset = 0; // bytes that are there
@@ -123,6 +126,18 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
         const FileDescriptor file_;
     };
 
+    // Why scenes went.
+    enum class Removal : uint8_t { kDeleted, kExpired, kEvicted, kFailed };
+    static constexpr std::array<const char*, 4> kRemovals = {"deleted", "expired", "evicted",
+                                                             "failed"};
+    struct Counts {
+        uint64_t receiving = 0;
+        uint64_t ready = 0;
+        uint64_t bytes = 0;                                     // announced, of both
+        uint64_t completed_total = 0;                           // that became ready
+        std::array<uint64_t, kRemovals.size()> removed_total{}; // by Removal
+    };
+
     // Takes up what the folder holds, and removes what is broken or too old. Throws StartupError
     // (kIo), also where another server uses it.
     GuestStore(std::filesystem::path folder, const StoreLimits& limits, Time now);
@@ -152,7 +167,7 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
     [[nodiscard]] bool remove(const std::string& id, const std::string& owner_key);
     // Removes what is too old. When that is due next; none: nothing is there.
     std::optional<Time> expire(Time now);
-    [[nodiscard]] uint64_t bytes() const;
+    [[nodiscard]] Counts counts() const;
 
   private:
     struct File {
@@ -183,8 +198,8 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
     [[nodiscard]] StoreResult<void> writeManifest(const std::string& id, const Scene& scene) const;
     // Whether enough stays free beside so many more.
     [[nodiscard]] bool diskHolds(uint64_t bytes) const;
-    // Of scenes that are in the table no more.
-    void removeFolders(const std::vector<std::string>& gone) const;
+    // Of scenes that are in the table no more. Counts and tells why.
+    void removeFolders(const std::vector<std::string>& gone, Removal why);
     void release(const std::string& id, size_t place);
     [[nodiscard]] Time dueOf(const Scene& scene) const;
     [[nodiscard]] Standing standingIn(const Scene& scene, const File& file) const;
@@ -209,6 +224,8 @@ class GuestStore : public std::enable_shared_from_this<GuestStore> {
     FileDescriptor lock_;
     std::function<void()> tell_ = [] {};
     mutable std::mutex mutex_;
+    std::atomic<uint64_t> completed_total_{0};
+    std::array<std::atomic<uint64_t>, kRemovals.size()> removed_total_{};
     Scenes scenes_;
     std::map<std::string, std::string> ids_; // by upload key
 };

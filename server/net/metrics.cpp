@@ -124,6 +124,7 @@ struct Metrics::Impl {
     [[nodiscard]] prometheus::MetricFamily memoryFamily() const;
     [[nodiscard]] prometheus::MetricFamily loadFamily() const;
     [[nodiscard]] std::vector<prometheus::MetricFamily> sceneFamilies() const;
+    [[nodiscard]] std::vector<prometheus::MetricFamily> uploadFamilies() const;
     [[nodiscard]] std::vector<prometheus::MetricFamily> stillFamilies() const;
     [[nodiscard]] prometheus::MetricFamily logFamily() const;
 
@@ -185,6 +186,7 @@ struct Metrics::Impl {
     std::function<uint64_t()> log_lost;
     std::function<still::StillCounts()> stills;   // likewise
     std::function<session::SceneCounts()> scenes; // none: nothing is told of them
+    std::function<guest::GuestStore::Counts()> uploads;
 };
 
 Metrics::Metrics(const std::string& version, std::function<size_t()> session_count)
@@ -374,6 +376,36 @@ std::vector<prometheus::MetricFamily> Metrics::Impl::sceneFamilies() const {
                      {{"", number(counts.evicted_total)}})};
 }
 
+void Metrics::watchUploads(std::function<guest::GuestStore::Counts()> uploads) {
+    const std::lock_guard lock(impl_->watch_mutex);
+    impl_->uploads = std::move(uploads);
+}
+
+std::vector<prometheus::MetricFamily> Metrics::Impl::uploadFamilies() const {
+    const std::lock_guard lock(watch_mutex);
+    if (!uploads) {
+        return {};
+    }
+    const guest::GuestStore::Counts counts = uploads();
+    const auto number = [](uint64_t value) { return static_cast<double>(value); };
+    using guest::GuestStore;
+    using prometheus::MetricType;
+    std::vector<std::pair<std::string, double>> removed;
+    for (size_t reason = 0; reason < GuestStore::kRemovals.size(); ++reason) {
+        removed.emplace_back(GuestStore::kRemovals[reason], number(counts.removed_total[reason]));
+    }
+    return {
+        metricFamily(MetricType::Gauge, "froxel_uploads", "Uploaded scenes by state.", "state",
+                     {{"receiving", number(counts.receiving)}, {"ready", number(counts.ready)}}),
+        metricFamily(MetricType::Gauge, "froxel_upload_bytes",
+                     "Bytes of uploaded scenes, with those that are still to come.", "",
+                     {{"", number(counts.bytes)}}),
+        metricFamily(MetricType::Counter, "froxel_uploads_completed_total",
+                     "Uploads that arrived whole.", "", {{"", number(counts.completed_total)}}),
+        metricFamily(MetricType::Counter, "froxel_uploads_removed_total",
+                     "Uploads that were removed, by reason.", "reason", removed)};
+}
+
 void Metrics::watchStills(std::function<still::StillCounts()> stills) {
     const std::lock_guard lock(impl_->watch_mutex);
     impl_->stills = std::move(stills);
@@ -448,8 +480,8 @@ void Metrics::bytesSent(size_t count) {
 
 std::string Metrics::text() const {
     auto families = impl_->registry.Collect();
-    for (auto more : {impl_->frameFamilies(), impl_->sceneFamilies(), impl_->stillFamilies(),
-                      processMetrics()}) {
+    for (auto more : {impl_->frameFamilies(), impl_->sceneFamilies(), impl_->uploadFamilies(),
+                      impl_->stillFamilies(), processMetrics()}) {
         std::move(more.begin(), more.end(), std::back_inserter(families));
     }
     families.push_back(impl_->sessionFamily());

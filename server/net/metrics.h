@@ -6,6 +6,7 @@
 
 #include "core/frame_fates.h"
 #include "core/frame_stats.h"
+#include "guest/guest_store.h"
 #include "session/rate_controller.h"
 #include "session/rejection.h"
 #include "session/scene_port.h"
@@ -82,6 +83,8 @@ class Metrics {
     // Tells of the server's scenes; called by text(), on its thread. Until it is set nothing is
     // told of them.
     void watchScenes(std::function<session::SceneCounts()> scenes);
+    // Likewise of the scenes that clients brought.
+    void watchUploads(std::function<guest::GuestStore::Counts()> uploads);
 
     // Tells of stills; called by text(), on its thread. Until it is set nothing is told of them.
     void watchStills(std::function<still::StillCounts()> stills);

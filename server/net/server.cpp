@@ -156,6 +156,7 @@ struct Server::Impl {
                                           isLoopback(address), options.admin_gate}));
         }
         if (options.guest_store) {
+            site->metrics->watchUploads([store = options.guest_store] { return store->counts(); });
             store_alarm.set(Clock::now() + kStoreLook);
         }
         site->lobby->setAlarm([this](TimePoint due) { lobby_alarm.set(due); });

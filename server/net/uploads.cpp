@@ -292,6 +292,7 @@ Uploads::create(const Request& request, const Account& account, uint64_t size_by
             }
             Response response = withTus(makeResponse(http::status::created, "text/plain", {}));
             set(response, "Location", placeOf(begun->uploads.front()));
+            set(response, "Upload-Expires", httpDateOf(begun->expires));
             set(response, "Froxel-Scene", begun->id);
             response.set(boost::beast::string_view(kOwnerKeyField.data(), kOwnerKeyField.size()),
                          begun->owner_key);

@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <string>
 #include <vector>
 
@@ -117,9 +116,14 @@ inline constexpr std::array kSlotRows = {
 };
 static_assert(kSlotRows.size() == io::kMaterialSlots, "kMaterialSlots counts the rows");
 #define FROXEL_SLOT(number, name, colour) number,
-static_assert(std::ranges::equal(std::array{FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)},
-                                 std::views::iota(0, static_cast<int>(io::kMaterialSlots))),
-              "slots' numbers ascend by 1 from 0");
+static_assert(
+    [] {
+        size_t next = 0;
+        return std::ranges::all_of(
+            std::array<size_t, io::kMaterialSlots>{FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)},
+            [&](size_t number) { return number == next++; });
+    }(),
+    "slots' numbers ascend by 1 from 0");
 static_assert(std::array{FROXEL_SURFACE_SLOTS(FROXEL_SLOT)}.size() == io::kSurfaceSlots,
               "kSurfaceSlots counts those of the surface");
 #undef FROXEL_SLOT

@@ -167,16 +167,25 @@ class Files(unittest.TestCase):
                 self.assertNotIn(document["kind"], ("Ingress", "HorizontalPodAutoscaler"))
 
     def test_everything_is_in_the_namespace(self):
-        for documents in (self.manifests("overlays/example"), self.composed("scenes-volume")):
+        for documents in (self.manifests("overlays/example"), self.composed("scenes-volume", "uploads")):
             for document in documents:
                 if document["kind"] != "Namespace":
                     self.assertEqual(document["metadata"]["namespace"], "froxel", document["metadata"]["name"])
+
+    def test_uploads_fit_their_volume(self):
+        pod, = [document["spec"]["template"]["spec"] for document in self.composed("uploads")
+                if document["kind"] == "Deployment"]
+        options = {entry["name"]: entry.get("value") for entry in pod["containers"][0]["env"]}
+        folder = options["FROXEL_UPLOAD_FOLDER"]
+        mount, = [mount["name"] for mount in pod["containers"][0]["volumeMounts"] if mount["mountPath"] == folder]
+        volume, = [volume for volume in pod["volumes"] if volume["name"] == mount]
+        self.assertLess(int(options["FROXEL_UPLOAD_SPACE"]), 1024 * int(volume["emptyDir"]["sizeLimit"].removesuffix("Gi")))
 
     def test_pods_are_restricted_as_their_namespace_demands(self):
         """Kubernetes' Pod Security Standards, level restricted, which admission would enforce."""
         pods = [(document["kind"], document["spec"]["template"]["spec"])
                 for documents in (self.manifests("overlays/nvidia"), self.manifests("overlays/example"),
-                                  self.composed("scenes-volume"))
+                                  self.composed("scenes-volume", "uploads"))
                 for document in documents if document["kind"] == "Deployment"]
         self.assertEqual(len(pods), 3)
         for name, pod in pods:

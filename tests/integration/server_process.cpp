@@ -8,6 +8,7 @@ namespace froxel::test {
 namespace {
 
 std::vector<std::string> command(const std::vector<std::string>& arguments, uint16_t port) {
+    setenv("FROXEL_UPLOADS", "off", 0); // servers side by side would share one folder
     std::vector<std::string> all = {test::binaryPath(), "serve",
                                     "--device",         "cpu",
                                     "--port",           std::to_string(port),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <meshoptimizer.h>
+#include <numeric>
 
 namespace froxel::render {
 namespace {
@@ -13,6 +14,12 @@ static_assert(kMeshletTriangles % 4 == 0, "meshoptimizer wants it so");
 constexpr float kConeWeight = 0.5F;
 
 constexpr uint32_t kFree = 0xffffffffU;
+// The work of meshoptimizer grows with the square of the triangles that meet at a vertex: two
+// million around one would take hours.
+constexpr uint32_t kMostAroundVertex = 512;
+
+// As cutIntoMeshlets(), of few triangles around each vertex.
+MeshletList cut(const LocalTriangles& local, std::span<const uint32_t> indices);
 
 } // namespace
 
@@ -43,7 +50,47 @@ LocalTriangles LocalTriangles::of(std::span<const uint32_t> some,
     return local;
 }
 
+std::optional<LocalTriangles>
+LocalTriangles::withCopiesOfBusyVertices(std::span<const uint32_t> some) const {
+    if (some.size() / 3 <= kMostAroundVertex) {
+        return {};
+    }
+    std::vector<uint32_t> uses(positions.size());
+    for (const uint32_t vertex : some) {
+        ++uses[vertex];
+    }
+    if (std::ranges::max(uses) <= kMostAroundVertex) {
+        return {};
+    }
+    LocalTriangles split;
+    split.owned_positions_.assign(positions.begin(), positions.end());
+    for (uint32_t vertex = 0; vertex < positions.size(); ++vertex) {
+        split.vertices_.push_back(original(vertex));
+    }
+    std::ranges::fill(uses, 0U);
+    std::vector<uint32_t> copies = split.vertices_; // the newest of each
+    std::iota(copies.begin(), copies.end(), 0U);
+    for (const uint32_t vertex : some) {
+        if (++uses[vertex] % kMostAroundVertex == 0) {
+            copies[vertex] = static_cast<uint32_t>(split.vertices_.size());
+            split.vertices_.push_back(original(vertex));
+            split.owned_positions_.push_back(positions[vertex]);
+        }
+        split.owned_indices_.push_back(copies[vertex]);
+    }
+    split.indices = split.owned_indices_;
+    split.positions = split.owned_positions_;
+    return split;
+}
+
 MeshletList cutIntoMeshlets(const LocalTriangles& local, std::span<const uint32_t> indices) {
+    const auto split = local.withCopiesOfBusyVertices(indices);
+    return split ? cut(*split, split->indices) : cut(local, indices);
+}
+
+namespace {
+
+MeshletList cut(const LocalTriangles& local, std::span<const uint32_t> indices) {
     std::vector<uint32_t> ordered(indices.size());
     meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(),
                                 local.positions.size());
@@ -90,6 +137,8 @@ MeshletList cutIntoMeshlets(const LocalTriangles& local, std::span<const uint32_
     }
     return list;
 }
+
+} // namespace
 
 MeshletPlace endOf(const MeshletList& list) {
     return behind({}, list);

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct LocalTriangles {
     // Those of `some`: 3 indices each, into all_positions.
     [[nodiscard]] static LocalTriangles of(std::span<const uint32_t> some,
                                            std::span<const glm::vec3> all_positions);
+    // Of `some`, 3 local indices each: those of them whose vertices have copies where many
+    // triangles meet. No copies are made, and none given, where none has so many.
+    [[nodiscard]] std::optional<LocalTriangles>
+    withCopiesOfBusyVertices(std::span<const uint32_t> some) const;
     LocalTriangles(LocalTriangles&&) = default;
     LocalTriangles& operator=(LocalTriangles&&) = delete;
 

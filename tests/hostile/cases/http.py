@@ -2,7 +2,10 @@
 
 import asyncio
 import itertools
+import json
+import re
 
+from broken_files import broken_files
 from case import NEVER, case
 
 JOINS = {"newcomer_s": 5}
@@ -121,19 +124,6 @@ async def silent_at_the_admin_address(arena):
         await asyncio.sleep(0.2)
 
 
-GLB = b"glTF\x02\x00\x00\x00"
-BROKEN = {
-    "no header": GLB,
-    "a chunk of 4 GiB": GLB + b"\x1c\x00\x00\x00\xff\xff\xff\xffJSON" + b"{}      ",
-    "no JSON": GLB + b"\x1c\x00\x00\x00\x08\x00\x00\x00JSON" + b"\xff" * 8,
-    "deep JSON": b'{"a":' * 100_000,
-    "a large mesh of nothing": b'{"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"count":2000000000,'
-                               b'"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],'
-                               b'"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}',
-    "a path": b'{"asset":{"version":"2.0"},"buffers":[{"uri":"/etc/passwd","byteLength":12}]}',
-}
-
-
 FORM = "Content-Type: multipart/form-data; boundary=x\r\n"
 BROKEN_FORMS = (b"--x\r\n" * 1000, b"--x\r\n" + b"h" * 10_000 + b": 1\r\n\r\n",
                 b'--x\r\nContent-Disposition: form-data; filename="../../a.glb"\r\n\r\nglTF\r\n--x--', b"--x--\r\n")
@@ -147,6 +137,10 @@ async def post(arena, body, size=None, address=None, fields=""):
         head = await reader.readuntil(b"\r\n\r\n")
         status = int(head.split()[1])
         arena.heard[f"HTTP {status}"] += 1
+        if status >= 400:
+            size = int(re.search(rb"(?i)content-length: (\d+)", head)[1])
+            told = json.loads(await reader.readexactly(size))
+            assert told["message"].isprintable() and told["code"] != "internal", told
         return status
     except asyncio.IncompleteReadError:
         arena.heard["hung up"] += 1
@@ -157,8 +151,10 @@ async def post(arena, body, size=None, address=None, fields=""):
 
 @case(clients=8, seconds=10, needs=("HTTP 400",), newcomer=True, most=JOINS)
 async def broken_scenes_posted(arena):
-    """Posts files that are broken in six ways and forms in four, as fast as they are refused."""
-    for body in itertools.cycle((*BROKEN.values(), *BROKEN_FORMS)):
+    """Posts two hundred files of six formats and four forms, all broken, as fast as they are refused."""
+    bodies = [*(body for _, body in broken_files()), *BROKEN_FORMS]
+    first = arena.index * len(bodies) // 8
+    for body in itertools.cycle(bodies[first:] + bodies[:first]):
         await post(arena, body, fields=FORM if body in BROKEN_FORMS else "")
 
 

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <memory>
 #include <set>
 #include <span>
@@ -233,7 +234,7 @@ TEST_F(GuestStoreTest, RoomIsShort_WhatWasUsedLongestAgoGoes) {
     const auto b = put(std::string(1000, 'b'), "y", kNow + 1s);
     const auto c = put(std::string(1000, 'c'), "z", kNow + 2s);
     const auto d = put(std::string(1000, 'd'), "w", kNow + 3s);
-    EXPECT_EQ(store_->bytes(), 4000U);
+    EXPECT_EQ(store_->counts().bytes, 4000U);
     EXPECT_TRUE(store_->use(a.id, kNow + 4s));
     const auto e = put(std::string(1000, 'e'), "v", kNow + 5s);
     EXPECT_FALSE(store_->use(b.id, kNow));
@@ -267,7 +268,7 @@ TEST_F(GuestStoreTest, DiskIsNearlyFull_NothingBegins) {
     limits_.free_share = 1;
     start();
     EXPECT_EQ(whyNot({{"a.glb", 1}}), Why::kFull);
-    EXPECT_EQ(store_->bytes(), 0U);
+    EXPECT_EQ(store_->counts().bytes, 0U);
     EXPECT_EQ(entries(), 0U);
 }
 
@@ -286,6 +287,11 @@ TEST_F(GuestStoreTest, UnusedScenes_GoInTheEnd) {
     EXPECT_EQ(store_->open(coming.uploads[0], 0, kNow).error().why, Why::kUnknown);
     EXPECT_TRUE(store_->use(ready.id, kNow + 20h));
     EXPECT_EQ(store_->expire(kNow + 40h), kNow + 20h + limits_.kept);
+    const GuestStore::Counts counts = store_->counts();
+    EXPECT_EQ(counts.ready, 1U);
+    EXPECT_EQ(counts.receiving, 0U);
+    EXPECT_EQ(counts.completed_total, 1U);
+    EXPECT_THAT(counts.removed_total, testing::ElementsAre(0U, 1U, 0U, 0U));
     start(kNow + 43h); // the time of its use outlives a restart
     EXPECT_TRUE(store_->factsOf(ready.id));
     start(kNow + 45h);
@@ -327,14 +333,14 @@ TEST_F(GuestStoreTest, ManyAtOnce_LeaveNothingBehind) {
                     (void)upload->end(kNow);
                     ready += store_->use(begun->id, kNow) ? 1 : 0;
                     (void)store_->expire(kNow);
-                    (void)store_->bytes();
+                    (void)store_->counts().bytes;
                     (void)store_->remove(begun->id, begun->owner_key);
                 }
             });
         }
     }
     EXPECT_EQ(ready, 80);
-    EXPECT_EQ(store_->bytes(), 0U);
+    EXPECT_EQ(store_->counts().bytes, 0U);
     EXPECT_EQ(entries(), 0U);
 }
 

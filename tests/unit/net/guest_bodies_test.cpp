@@ -84,7 +84,7 @@ TEST_F(GuestBodiesTest, Kind_IsByTheFirstBytes) {
                                         "scene.ply", "scene.stl", "scene.obj", "scene.stl"}));
     EXPECT_EQ(send(std::string(80, 'x') + std::string("\2\0\0\0", 4) + std::string(50, 'x')),
               http::status::unsupported_media_type);
-    for (const char* other : {"PK\x03\x04", "<html>", "glT", "  ", "solid ", "\x89PNG"}) {
+    for (const char* other : {"PK\x05\x06", "<html>", "glT", "  ", "solidity ", "\x89PNG"}) {
         EXPECT_EQ(send(other), http::status::unsupported_media_type) << other;
     }
 }

@@ -212,6 +212,21 @@ TEST(Metrics, Scenes_AreToldOfWhereThereAreSeveral) {
     }
 }
 
+TEST(Metrics, Uploads_AreCounted_OnlyWhereThereMayBeSome) {
+    Metrics metrics;
+    EXPECT_THAT(metrics.text(), Not(HasSubstr("froxel_upload")));
+    guest::GuestStore::Counts counts{.receiving = 1, .ready = 2, .bytes = 77, .completed_total = 5};
+    counts.removed_total = {1, 2, 3, 4};
+    metrics.watchUploads([&counts] { return counts; });
+    for (const char* row :
+         {"froxel_uploads{state=\"receiving\"} 1\n", "froxel_uploads{state=\"ready\"} 2\n",
+          "froxel_upload_bytes 77\n", "froxel_uploads_completed_total 5\n",
+          "froxel_uploads_removed_total{reason=\"deleted\"} 1\n",
+          "froxel_uploads_removed_total{reason=\"failed\"} 4\n"}) {
+        EXPECT_THAT(metrics.text(), HasSubstr(row));
+    }
+}
+
 TEST(Metrics, Memory_IsWhatItIsAtEachScrape) {
     Metrics metrics;
     EXPECT_THAT(metrics.text(), Not(HasSubstr("froxel_device_memory_bytes{")));

@@ -78,6 +78,16 @@ TEST(GeometryPack, Meshlets_CoverEveryTriangleOnceWithItsWinding) {
     expectWordsAreIndices(packed.triangles);
 }
 
+// Hours, if its work grew with the square of them.
+TEST(GeometryPack, MillionTrianglesAroundOneVertex_AreCutSoon) {
+    scene::Scene scene;
+    scene.meshes.push_back({"fan", {fan(1'000'000, false)}});
+    const auto packed = packGeometry(scene);
+    EXPECT_EQ(sortedTriangles(packed.triangles.indices),
+              sortedTriangles(scene.meshes[0].primitives[0].indices));
+    expectWordsAreIndices(packed.triangles);
+}
+
 TEST(GeometryPack, ManyTriangles_AreCutIntoPartsThatCoverEachOnce) {
     scene::Scene scene;
     scene.meshes.push_back({"fans", {fan(40, false), fan(900, false), fan(41, true)}});
