@@ -113,18 +113,19 @@ bool namesAreShort(const scene::Scene& scene) {
     const auto named = [&](const auto& thing) { return fits(thing.name); };
     return std::ranges::all_of(scene.material_variants, fits) &&
            std::ranges::all_of(scene.cameras, named) &&
+           std::ranges::all_of(scene.extensions, named) &&
            (!scene.motion || std::ranges::all_of(scene.motion->clips, named));
 }
 
 Fault faultInNumbers(const scene::Scene& scene) {
-    const bool few = scene.cameras.size() <= gltf::kMaxChoices &&
-                     scene.material_variants.size() <= gltf::kMaxChoices &&
-                     (!scene.motion || scene.motion->clips.size() <= gltf::kMaxChoices) &&
-                     scene.instances.size() <= gltf::kMaxInstances &&
-                     scene.materials.size() <= gltf::kMaxMaterials + 1 &&
-                     scene.lights.size() <= gltf::kMaxInstances && scene.warnings.size() <= 4096 &&
-                     scene.material_variant <= scene.material_variants.size() &&
-                     namesAreShort(scene);
+    const bool few =
+        scene.cameras.size() <= gltf::kMaxChoices && scene.extensions.size() <= gltf::kMaxChoices &&
+        scene.material_variants.size() <= gltf::kMaxChoices &&
+        (!scene.motion || scene.motion->clips.size() <= gltf::kMaxChoices) &&
+        scene.instances.size() <= gltf::kMaxInstances &&
+        scene.materials.size() <= gltf::kMaxMaterials + 1 &&
+        scene.lights.size() <= gltf::kMaxInstances && scene.warnings.size() <= 4096 &&
+        scene.material_variant <= scene.material_variants.size() && namesAreShort(scene);
     return few ? Fault() : "it has more things, or longer names, than a file may have";
 }
 

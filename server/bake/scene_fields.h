@@ -118,6 +118,7 @@ FROXEL_FIELDS(scene::Motion,
               v.cameras,
               v.clips,
               v.played)
+FROXEL_FIELDS(scene::Extension, 0, v.name, v.read)
 // Not the files, which whoever opened them knows, nor surroundings, which no file has.
 FROXEL_FIELDS(scene::Scene,
               2,
@@ -135,6 +136,7 @@ FROXEL_FIELDS(scene::Scene,
               v.lights,
               v.bounds_world,
               v.motion,
+              v.extensions,
               v.warnings,
               v.warnings_left_out)
 

@@ -245,6 +245,7 @@ Document readDocument(SceneFiles& files, ReadMemory& memory, Warnings& warnings)
     const UnwindReserve reserve(value_count * 3 * sizeof(Json));
     root = parseJson(text);
     checkJson(root, warnings);
+    document.extensions = extensionsOf(root);
     takeMemory(root, memory);
     takeBuffers(root, document);
     takeImages(root, document);

@@ -82,6 +82,7 @@ struct Document {
     std::vector<CameraSource> cameras;
     std::vector<LightSource> lights;            // KHR_lights_punctual
     std::vector<std::string> material_variants; // names of KHR_materials_variants
+    std::vector<scene::Extension> extensions;
     Bytes file;
     std::span<const std::byte> binary_chunk; // in `file`
 };

@@ -22,6 +22,7 @@ scene::Scene read(FileOpener& opener,
     const Document document = readDocument(files, memory, warnings);
     scene::Scene scene = buildScene(document, files, progress, memory, warnings);
     scene.name = file.stem().string();
+    scene.extensions = document.extensions;
     scene.file_bytes = files.fileBytes();
     warnings.moveInto(scene);
     return scene;

@@ -270,6 +270,24 @@ Json parseJson(std::span<const std::byte> text) {
     }
 }
 
+std::vector<scene::Extension> extensionsOf(const Json& root) {
+    std::map<std::string, bool> read;
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+        for (const Json& entry : root.value(key, Json::array())) {
+            const auto& name = entry.get_ref<const std::string&>();
+            if (name.size() <= kMaxNameBytes && read.size() < kMaxChoices) {
+                read.emplace(name,
+                             isSupportedExtension(name) || isOneOf(kMetadataExtensions, name));
+            }
+        }
+    }
+    std::vector<scene::Extension> extensions;
+    for (const auto& [name, is] : read) {
+        extensions.push_back({name, is});
+    }
+    return extensions;
+}
+
 void checkJson(Json& root, Warnings& warnings) {
     checkVersion(root);
     std::string path;

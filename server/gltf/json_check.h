@@ -30,4 +30,8 @@ namespace froxel::gltf {
 // extension is not supported and stands at a buffer, a bufferView, an accessor or a primitive.
 void checkJson(nlohmann::json& root, Warnings& warnings);
 
+// By name, of what checkJson() has passed. At most kMaxChoices; none of a longer name than
+// kMaxNameBytes.
+[[nodiscard]] std::vector<scene::Extension> extensionsOf(const nlohmann::json& root);
+
 } // namespace froxel::gltf

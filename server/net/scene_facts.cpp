@@ -34,6 +34,19 @@ Json animationsOf(const session::SceneSummary& scene) {
     return animations;
 }
 
+// Those used, and of them those that are not read.
+Json extensionsOf(const session::SceneSummary& scene) {
+    Json used = Json::array();
+    Json missing = Json::array();
+    for (const scene::Extension& extension : scene.extensions) {
+        used.push_back(extension.name);
+        if (!extension.read) {
+            missing.push_back(extension.name);
+        }
+    }
+    return {{"used", std::move(used)}, {"missing", std::move(missing)}};
+}
+
 } // namespace
 
 Json factsOf(const session::SceneSummary& scene) {
@@ -62,6 +75,7 @@ Json factsOf(const session::SceneSummary& scene) {
             {"cameras", std::move(cameras)},
             {"animations", animationsOf(scene)},
             {"material_variants", scene.material_variants},
+            {"extensions", extensionsOf(scene)},
             {"warnings", std::move(warnings)},
             {"warnings_left_out", scene.warnings_left_out}};
 }

@@ -20,6 +20,12 @@ still::StillRefusal refusalOf(const Error& error) {
              capacity ? "size" : "", error.message}};
 }
 
+constexpr const char* kDebugView = "debug_view";
+
+bool isDebugView(const still::Entry& entry) {
+    return entry.name == kDebugView;
+}
+
 } // namespace
 
 StillSeries::StillSeries(Plan plan,
@@ -28,19 +34,33 @@ StillSeries::StillSeries(Plan plan,
                          std::optional<session::Account> account,
                          std::function<void(Made)> done)
     : plan_(std::move(plan)), desk_(std::move(desk)), long_work_(long_work),
-      account_(std::move(account)), done_(std::move(done)), pictures_(plan_.views.size()),
-      missing_(plan_.views.size()) {}
+      account_(std::move(account)), done_(std::move(done)), pictures_(count()),
+      missing_(pictures_.size()) {}
+
+size_t StillSeries::count() const {
+    const bool surveyed = !plan_.sheet && std::ranges::none_of(plan_.request.view, isDebugView);
+    return plan_.views.size() * (surveyed ? 2 : 1);
+}
+
+still::StillRequest StillSeries::requestOf(size_t place) const {
+    still::StillRequest request = plan_.request;
+    const std::string name(plan_.views[place % plan_.views.size()]->name);
+    request.view.push_back({"view", name});
+    request.tag += "\nview=" + name;
+    if (place >= plan_.views.size()) {
+        request.view.push_back({kDebugView, "depth"});
+        request.tag += "\ndepth";
+    }
+    request.codec = settings::Codec::kPng;
+    request.kept = false; // each is drawn, and so it is known of what
+    return request;
+}
 
 HttpSite::CallOff StillSeries::start(const still::StillSource& source, TimePoint now) {
-    for (size_t place = 0; place < plan_.views.size(); ++place) {
-        still::StillRequest request = plan_.request;
-        const std::string name(plan_.views[place]->name);
-        request.view.push_back({"view", name});
-        request.tag += "\nview=" + name;
-        request.codec = settings::Codec::kPng;
-        request.kept = false; // each is drawn, and so it is known of what
+    const size_t all = count();
+    for (size_t place = 0; place < all; ++place) {
         const auto ticket = desk_->ask(
-            source, std::move(request), account_,
+            source, requestOf(place), account_,
             [self = shared_from_this(), place](still::StillOutcome outcome) {
                 self->put(place, std::move(outcome));
             },
@@ -122,14 +142,23 @@ StillSeries::Made StillSeries::sheet(std::span<const still::StillPicture> pictur
 
 StillSeries::Made StillSeries::facts(std::span<const still::StillPicture> pictures) const {
     nlohmann::ordered_json json = factsOf(pictures.front().scene->scene);
-    for (size_t place = 0; place < pictures.size(); ++place) {
+    const size_t views = plan_.views.size();
+    for (size_t place = 0; place < views; ++place) {
         const auto facts = still::factsOf(pictures[place].bytes);
         if (!facts) {
             return refusalOf(facts.error());
         }
-        json["views"].push_back({{"view", plan_.views[place]->name},
-                                 {"near_black", facts->near_black},
-                                 {"near_white", facts->near_white}});
+        nlohmann::ordered_json view{{"view", plan_.views[place]->name}};
+        if (pictures.size() > views) {
+            const auto covered = still::coveredShare(pictures[views + place].bytes);
+            if (!covered) {
+                return refusalOf(covered.error());
+            }
+            view["covered"] = *covered;
+        }
+        view["near_black"] = facts->near_black;
+        view["near_white"] = facts->near_white;
+        json["views"].push_back(std::move(view));
     }
     return textOf(json);
 }

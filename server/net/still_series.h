@@ -37,6 +37,9 @@ class StillSeries : public std::enable_shared_from_this<StillSeries> {
     [[nodiscard]] HttpSite::CallOff start(const still::StillSource& source, TimePoint now);
 
   private:
+    // How many pictures are drawn.
+    [[nodiscard]] size_t count() const;
+    [[nodiscard]] still::StillRequest requestOf(size_t place) const;
     void put(size_t place, still::StillOutcome outcome);
     void callOff();
     // Of all pictures. They are let go before `done` is called.
@@ -50,7 +53,8 @@ class StillSeries : public std::enable_shared_from_this<StillSeries> {
     const std::optional<session::Account> account_;
     const std::function<void(Made)> done_;
     std::mutex mutex_;
-    std::vector<still::StillPicture> pictures_; // by view; without bytes: not drawn yet
+    // By view; behind them, for facts, each view's depth. Without bytes: not drawn yet.
+    std::vector<still::StillPicture> pictures_;
     std::vector<still::StillDesk::Ticket> tickets_;
     size_t missing_;
     bool over_ = false; // done, or called off

@@ -196,6 +196,12 @@ struct PunctualLight {
     std::optional<LightRectangle> rectangle; // of a spot of 90 degrees; no file has any
 };
 
+// Of glTF.
+struct Extension {
+    std::string name; // as the file has it
+    bool read = false;
+};
+
 struct Scene {
     std::string name;
     uint64_t file_bytes = 0;        // of its file and of all that this refers to; 0: it is built in
@@ -215,7 +221,8 @@ struct Scene {
     std::shared_ptr<const Motion> motion; // scene/motion.h; null: all of the scene rests
     // Light from around that belongs to it (environment/surroundings.h); null: none does.
     std::shared_ptr<const environment::Surroundings> surroundings;
-    std::vector<Warning> warnings; // the gravest first; few, however many there are
+    std::vector<Extension> extensions; // that its file uses, by name
+    std::vector<Warning> warnings;     // the gravest first; few, however many there are
     uint64_t warnings_left_out = 0;
 };
 

@@ -27,6 +27,7 @@ SceneSummary summarize(const scene::Scene& scene) {
     summary.material_variant = scene.material_variant;
     summary.bounds_world = scene.bounds_world;
     summary.motion = scene.motion;
+    summary.extensions = scene.extensions;
     summary.warnings = scene.warnings;
     summary.warnings_left_out = scene.warnings_left_out;
     for (const scene::Instance& instance : scene.instances) {

@@ -33,6 +33,7 @@ struct SceneSummary {
     uint32_t material_variant = 0;               // at first; from 1, 0: none
     BoundsD3 bounds_world;                       // empty for an empty scene
     std::shared_ptr<const scene::Motion> motion; // null: it rests
+    std::vector<scene::Extension> extensions;
     std::vector<scene::Warning> warnings;
     uint64_t warnings_left_out = 0;
     bool detail_levels = false; // the device has coarser levels of its meshes

@@ -1,34 +1,67 @@
 #include "still/picture_facts.h"
 
+#include "interface/debug_io.h"
 #include "png/reader.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace froxel::still {
 
-Result<PictureFacts> factsOf(const SharedBytes& png) {
-    constexpr uint8_t kBlack = 8;
-    constexpr uint8_t kWhite = 247;
+namespace {
+
+using Rgba8 = std::array<uint8_t, 4>; // alpha: 255
+using Rgba8Pixels = std::vector<Rgba8>;
+
+bool isNearBlack(const Rgba8& at) {
+    constexpr uint8_t kMost = 8;
+    return std::max({at[0], at[1], at[2]}) <= kMost;
+}
+
+bool isNearWhite(const Rgba8& at) {
+    constexpr uint8_t kLeast = 247;
+    return std::min({at[0], at[1], at[2]}) >= kLeast;
+}
+
+Result<Rgba8Pixels> pixelsOf(const SharedBytes& png) {
     const auto size = png::readSize(*png);
     if (!size) {
         return size.error();
     }
-    std::vector<std::array<uint8_t, 4>> pixels(size_t{size->width_px} * size->height_px);
+    Rgba8Pixels pixels(size_t{size->width_px} * size->height_px);
     if (auto read = png::readPixels(*png, std::as_writable_bytes(std::span(pixels))); !read) {
         return read.error();
     }
-    size_t black = 0;
-    size_t white = 0;
-    for (const auto& [red, green, blue, alpha] : pixels) {
-        black += std::max({red, green, blue}) <= kBlack ? 1U : 0U;
-        white += std::min({red, green, blue}) >= kWhite ? 1U : 0U;
+    return pixels;
+}
+
+template <class Is>
+double share(const Rgba8Pixels& pixels, Is is) {
+    return static_cast<double>(std::ranges::count_if(pixels, is)) /
+           static_cast<double>(pixels.size());
+}
+
+} // namespace
+
+Result<PictureFacts> factsOf(const SharedBytes& png) {
+    const auto pixels = pixelsOf(png);
+    if (!pixels) {
+        return pixels.error();
     }
-    const auto all = static_cast<double>(pixels.size());
-    return PictureFacts{static_cast<double>(black) / all, static_cast<double>(white) / all};
+    return PictureFacts{share(*pixels, isNearBlack), share(*pixels, isNearWhite)};
+}
+
+Result<double> coveredShare(const SharedBytes& png) {
+    const auto pixels = pixelsOf(png);
+    if (!pixels) {
+        return pixels.error();
+    }
+    return share(*pixels,
+                 [](const Rgba8& at) { return std::bit_cast<uint32_t>(at) != io::kDebugEmpty; });
 }
 
 } // namespace froxel::still

@@ -11,7 +11,10 @@ struct PictureFacts {
     double near_white = 0; // all at least 247
 };
 
-// Errors: kIo. Pure, any thread.
+// Errors of both: kIo. Pure, any thread.
 [[nodiscard]] Result<PictureFacts> factsOf(const SharedBytes& png);
+
+// Of a picture of the debug view "depth": the share of pixels where a solid surface is.
+[[nodiscard]] Result<double> coveredShare(const SharedBytes& png);
 
 } // namespace froxel::still

@@ -33,6 +33,7 @@ from viewer import Viewer as Socket
 
 TUS = {"Tus-Resumable": "1.0.0"}
 HEAP_RISE_BYTES = 8e6
+CHOOSE_EVERY_S = 1.0  # a session that switches faster is told to wait
 
 
 class Failed(Exception):
@@ -92,23 +93,34 @@ class Viewer:
         for field in (("Tus-Resumable", "1.0.0"), ("Content-Type", "application/offset+octet-stream"),
                       ("Upload-Offset", str(at)), ("Content-Length", str(len(content) - at))):
             connection.putheader(*field)
-        connection.endheaders()
-        connection.send(content[at : at + (len(content) - at) // 2])
+        try:
+            connection.endheaders()
+            connection.send(content[at : at + (len(content) - at) // 2])
+        except OSError:
+            pass  # the server refused it, since what broke off before has not ended yet
         connection.close()
 
     async def choose(self, socket, scene):
-        """What became of the choice: sceneChanged or error."""
+        """What became of the choice: sceneChanged, error or called off."""
+        await asyncio.sleep(CHOOSE_EVERY_S)
         await socket.say(selectScene={"scene": scene})
         if self.dice.random() < 0.5:
-            await asyncio.sleep(self.dice.random() * 0.05)
+            await asyncio.sleep(self.dice.random() * 0.1)
             scene = self.first
             await socket.say(selectScene={"scene": scene})
-        while True:
-            name, content = await asyncio.wait_for(socket.hear(), 120)
+        patience_s = 2 if scene == self.first else 120  # the scene that is shown is chosen in silence
+        end = time.monotonic() + patience_s
+        while time.monotonic() < end:
+            name, content = await asyncio.wait_for(socket.hear(), 60)
             if name == "frame":
                 await socket.acknowledge(content)
+            elif name == "error" and content["code"] in ("ERROR_CODE_RATE_LIMIT", "ERROR_CODE_DEVICE", "ERROR_CODE_MALFORMED"):
+                raise Failed(f"a choice was answered {content}")
             elif name == "error" or name == "sceneChanged" and content["scene"]["id"] == scene:
                 return name
+        if scene == self.first:
+            return "called off"
+        raise Failed("a choice was not answered within two minutes")
 
     async def run(self, end):
         async with Socket(self.server.url, "127.0.0.1", self.heard) as socket:
@@ -156,7 +168,7 @@ def main():
         store = Path(folder) / "uploads"
         # One address sends all of it.
         server = Server(options.froxel, "--upload-folder", store, "--uploads", "on", "--max-sessions", str(options.viewers),
-                        "--max-sessions-per-address", str(options.viewers), "--min-fps", "0", "--size", "64x48", *serve)
+                        "--max-sessions-per-address", str(options.viewers), "--min-fps", "0", "--size", "64x48", "--drain-seconds", "1", *serve)
         end = time.monotonic() + options.minutes * 60
         while time.monotonic() < end and not faults:
             faults += asyncio.run(round_of(server, scenes, options, len(rest), heard))

@@ -1,6 +1,7 @@
 #include "render/scene/meshlets.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <meshoptimizer.h>
 #include <numeric>
@@ -18,8 +19,53 @@ constexpr uint32_t kFree = 0xffffffffU;
 // million around one would take hours.
 constexpr uint32_t kMostAroundVertex = 512;
 
-// As cutIntoMeshlets(), of few triangles around each vertex.
+// Likewise of the triangles that have one middle: its tree of them does not part those.
+constexpr uint32_t kMostOfOneMiddle = 4096;
+
+// As cutIntoMeshlets(), of few triangles around each vertex and of few with one middle.
 MeshletList cut(const LocalTriangles& local, std::span<const uint32_t> indices);
+
+// Whether more triangles than kMostOfOneMiddle may have the same middle; never no where they have.
+bool middlesCoincide(std::span<const glm::vec3> positions, std::span<const uint32_t> indices) {
+    constexpr size_t kBuckets = size_t{1} << 16U;
+    const size_t count = indices.size() / 3;
+    if (count <= kMostOfOneMiddle) {
+        return false;
+    }
+    std::vector<uint32_t> buckets(kBuckets); // triangles by their middles' hashes
+    for (size_t i = 0; i < indices.size(); i += 3) {
+        const glm::vec3 sum =
+            positions[indices[i]] + positions[indices[i + 1]] + positions[indices[i + 2]];
+        const auto bits = std::bit_cast<std::array<uint32_t, 3>>(sum + 0.0F); // of -0, too
+        const uint64_t mixed = (bits[0] * 0x9e3779b97f4a7c15U) ^ (bits[1] * 0xc2b2ae3d27d4eb4fU) ^
+                               (bits[2] * 0x165667b19e3779f9U);
+        ++buckets[(mixed * 0x9e3779b97f4a7c15U) >> 48U];
+    }
+    return std::ranges::max(buckets) > kMostOfOneMiddle + 4 * count / kBuckets;
+}
+
+// Few triangles at a time, in their order.
+MeshletList cutInRuns(const LocalTriangles& local, std::span<const uint32_t> indices) {
+    MeshletList list;
+    for (size_t begin = 0; begin < indices.size(); begin += size_t{3} * kMostOfOneMiddle) {
+        const auto run =
+            indices.subspan(begin, std::min(size_t{3} * kMostOfOneMiddle, indices.size() - begin));
+        const auto part = LocalTriangles::of(run, local.positions);
+        const auto split = part.withCopiesOfBusyVertices(part.indices);
+        MeshletList made = split ? cut(*split, split->indices) : cut(part, part.indices);
+        for (uint32_t& index : made.indices) {
+            index = local.original(index);
+        }
+        for (const Meshlet& meshlet : made.meshlets) {
+            for (uint32_t i = 0; i < meshlet.vertex_count; ++i) {
+                uint32_t& vertex = made.words[meshlet.first_word + i];
+                vertex = local.original(vertex);
+            }
+        }
+        append(list, made);
+    }
+    return list;
+}
 
 } // namespace
 
@@ -84,6 +130,9 @@ LocalTriangles::withCopiesOfBusyVertices(std::span<const uint32_t> some) const {
 }
 
 MeshletList cutIntoMeshlets(const LocalTriangles& local, std::span<const uint32_t> indices) {
+    if (middlesCoincide(local.positions, indices)) {
+        return cutInRuns(local, indices);
+    }
     const auto split = local.withCopiesOfBusyVertices(indices);
     return split ? cut(*split, split->indices) : cut(local, indices);
 }

@@ -88,6 +88,25 @@ TEST(GeometryPack, MillionTrianglesAroundOneVertex_AreCutSoon) {
     expectWordsAreIndices(packed.triangles);
 }
 
+TEST(GeometryPack, HalfAMillionTrianglesInOnePlace_AreCutSoon) {
+    scene::Primitive apart;
+    scene::Primitive shared;
+    shared.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    for (uint32_t i = 0; i < 500'000; ++i) {
+        apart.positions.insert(apart.positions.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+        apart.indices.insert(apart.indices.end(), {3 * i, 3 * i + 1, 3 * i + 2});
+        shared.indices.insert(shared.indices.end(), {0, 1, 2});
+    }
+    for (scene::Primitive* primitive : {&apart, &shared}) {
+        primitive->normals.assign(primitive->positions.size(), glm::vec3(0, 0, 1));
+        scene::Scene scene;
+        scene.meshes.push_back({"heap", {*primitive}});
+        const auto packed = packGeometry(scene);
+        EXPECT_EQ(sortedTriangles(packed.triangles.indices), sortedTriangles(primitive->indices));
+        expectWordsAreIndices(packed.triangles);
+    }
+}
+
 TEST(GeometryPack, ManyTriangles_AreCutIntoPartsThatCoverEachOnce) {
     scene::Scene scene;
     scene.meshes.push_back({"fans", {fan(40, false), fan(900, false), fan(41, true)}});

@@ -117,6 +117,13 @@ TEST(Sheet, TooLargeOrBroken_IsAnError) {
     EXPECT_FALSE(makeSheet(other_size, asPng()));
 }
 
+TEST(PictureFacts, CoveredIsWhatIsNotTheEmptyColourOfDebugViews) {
+    const Pixel empty{0x20, 0x20, 0x20, 255};
+    const Pixel near{0x20, 0x20, 0x21, 255};
+    EXPECT_DOUBLE_EQ(coveredShare(pngOf(2, {empty, near, empty, empty})).value(), 0.25);
+    EXPECT_FALSE(coveredShare(std::make_shared<const std::vector<std::byte>>(3)));
+}
+
 TEST(PictureFacts, SharesOfNearlyBlackAndWhite) {
     const Pixel black{8, 0, 8, 255};
     const Pixel dark{9, 0, 0, 255};
