@@ -1,7 +1,7 @@
 #include "files.h"
 
-#include <gmock/gmock.h>
 #include <array>
+#include <gmock/gmock.h>
 #include <zlib.h>
 
 namespace froxel::formats {
@@ -23,7 +23,8 @@ std::string zipOf(const std::vector<std::pair<std::string, std::string>>& files)
         const auto check =
             static_cast<uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(content.data()), size));
         std::string common;
-        for (const auto word : std::to_array<uint16_t>({20, 0, 0, 0, 0x21})) { // version, flags, stored, time, date
+        for (const auto word :
+             std::to_array<uint16_t>({20, 0, 0, 0, 0x21})) { // version, flags, stored, time, date
             add(common, word);
         }
         add(common, check);
