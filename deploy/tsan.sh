@@ -8,7 +8,7 @@ source "$(dirname "$0")/common.sh"
 # a Vulkan device, which is too slow under it.
 left_out='*MemoryBounded:*.Process_*'
 
-tests=(core session stream net load encode)
+tests=(core guest session stream still net load encode)
 targets=("${tests[@]/%/_test}" relay_test integration_test)
 
 cd "$root"

@@ -5,11 +5,13 @@
 #include "builtin_scene/hall.h"
 #include "core/text.h"
 #include "gltf/gltf_loader.h"
+#include "gltf/load_result.h"
 #include "light/arriving_light.h"
 #include "motion/posed_scene.h"
 #include "scene/first_look.h"
 #include "scene/motion.h"
 #include "scene/name_list.h"
+#include "scene/stacked_layers.h"
 #include "settings/setting_rows.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -24,6 +26,8 @@ namespace froxel::app {
 namespace {
 
 constexpr const char* kBuiltin = "builtin";
+// A second of two cores at 1280x720.
+constexpr uint64_t kMostGuestLayers = 1024;
 
 // The place of a thing that is named, or numbered from 1, among those that there are; scene::kNone
 // for "none".
@@ -116,9 +120,17 @@ Result<scene::Scene> loadGuestScene(const std::shared_ptr<const guest::GuestScen
     bake::GuestFiles files(brought);
     auto scene = bake::loadFrom(files, brought->files.front().name, reading.process, report,
                                 reading.limits.memory_bytes);
-    if (scene) {
-        placeCameras(*scene);
+    if (!scene) {
+        return scene;
     }
+    if (const uint64_t layers = scene::stackedLayers(*scene); layers > kMostGuestLayers) {
+        return gltf::sceneError(
+            brought->files.front().name,
+            fmt::format("about {} of its triangles lie over one another; a scene that a client "
+                        "brings may have {}, because drawing more would stop everybody else",
+                        layers, kMostGuestLayers));
+    }
+    placeCameras(*scene);
     return scene;
 }
 

@@ -3,6 +3,7 @@
 #include "bake/channel.h"
 #include "bake/flat_scene.h"
 #include "bake/reader.h"
+#include "bake/seal.h"
 #include "core/text.h"
 #include "formats/scene_loader.h"
 #include "gltf/load_result.h"
@@ -149,9 +150,7 @@ Error systemError(const std::string& what) {
 // Memory that nobody writes any more.
 Result<scene::Scene> readOutput(const FileDescriptor& output, uint64_t pool_bytes) {
     struct stat status {};
-    if (fcntl(output.get(), F_ADD_SEALS,
-              F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE) != 0 ||
-        fstat(output.get(), &status) != 0) {
+    if (!seal(output.get()) || fstat(output.get(), &status) != 0) {
         return systemError("cannot seal what the reader wrote");
     }
     const auto size = static_cast<size_t>(status.st_size);

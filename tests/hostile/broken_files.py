@@ -78,6 +78,7 @@ LIES = {
     "obj of a vertex before the first": OBJ + b"f -1 -2 -9\n",
     "obj that reads a file": OBJ.replace(b"gone.mtl", b"../../../../etc/passwd"),
     "obj of a polygon with many corners": OBJ + b"f " + b"1 2 3 " * 5000 + b"\n",
+    "obj of a heap of triangles": OBJ + b"f 1 2 3\n" * 50_000,
     "obj of numbers that are none": OBJ.replace(b"1 0 0", b"nan inf 1e999"),
     "obj of one long line": b"# " + b"x" * 1_000_000,
     "ply of many vertices": PLY.replace(b"vertex 3", b"vertex 18446744073709551615"),
