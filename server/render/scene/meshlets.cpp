@@ -23,7 +23,59 @@ constexpr uint32_t kMostAroundVertex = 512;
 constexpr uint32_t kMostOfOneMiddle = 4096;
 
 // As cutIntoMeshlets(), of few triangles around each vertex and of few with one middle.
-MeshletList cut(const LocalTriangles& local, std::span<const uint32_t> indices);
+MeshletList cutFew(const LocalTriangles& local, std::span<const uint32_t> indices) {
+    std::vector<uint32_t> ordered(indices.size());
+    meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(),
+                                local.positions.size());
+    const size_t bound =
+        meshopt_buildMeshletsBound(ordered.size(), kMeshletVertices, kMeshletTriangles);
+    std::vector<meshopt_Meshlet> meshlets(bound);
+    std::vector<uint32_t> vertices(bound * size_t{kMeshletVertices});
+    std::vector<unsigned char> triangles(bound * size_t{kMeshletTriangles} * 3);
+    const float* positions = &local.positions.front().x;
+    const size_t vertex_count = local.positions.size();
+    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(),
+                                          ordered.data(), ordered.size(), positions, vertex_count,
+                                          sizeof(glm::vec3), kMeshletVertices, kMeshletTriangles,
+                                          kConeWeight));
+    MeshletList list;
+    list.indices.reserve(ordered.size());
+    list.words.reserve(ordered.size() / 3 * 2);
+    list.meshlets.reserve(meshlets.size());
+    for (const auto& meshlet : meshlets) {
+        const auto bounds = meshopt_computeMeshletBounds(
+            &vertices[meshlet.vertex_offset], &triangles[meshlet.triangle_offset],
+            meshlet.triangle_count, positions, vertex_count, sizeof(glm::vec3));
+        list.meshlets.push_back(
+            {.first_index = static_cast<uint32_t>(list.indices.size()),
+             .index_count = meshlet.triangle_count * 3,
+             .first_word = static_cast<uint32_t>(list.words.size()),
+             .vertex_count = meshlet.vertex_count,
+             .center = {bounds.center[0], bounds.center[1], bounds.center[2]},
+             .radius = bounds.radius,
+             .cone_axis = {bounds.cone_axis[0], bounds.cone_axis[1], bounds.cone_axis[2]},
+             .cone_cutoff = bounds.cone_cutoff});
+        for (size_t i = 0; i < meshlet.vertex_count; ++i) {
+            list.words.push_back(local.original(vertices[meshlet.vertex_offset + i]));
+        }
+        for (size_t i = 0; i < meshlet.triangle_count; ++i) {
+            uint32_t triangle = 0;
+            for (size_t k = 0; k < 3; ++k) {
+                const uint32_t corner = triangles[meshlet.triangle_offset + 3 * i + k];
+                list.indices.push_back(local.original(vertices[meshlet.vertex_offset + corner]));
+                triangle |= corner << 8 * k;
+            }
+            list.words.push_back(triangle);
+        }
+    }
+    return list;
+}
+
+// Likewise of any number around a vertex.
+MeshletList cut(const LocalTriangles& local, std::span<const uint32_t> indices) {
+    const auto split = local.withCopiesOfBusyVertices(indices);
+    return split ? cutFew(*split, split->indices) : cutFew(local, indices);
+}
 
 // Whether more triangles than kMostOfOneMiddle may have the same middle; never no where they have.
 bool middlesCoincide(std::span<const glm::vec3> positions, std::span<const uint32_t> indices) {
@@ -51,8 +103,7 @@ MeshletList cutInRuns(const LocalTriangles& local, std::span<const uint32_t> ind
         const auto run =
             indices.subspan(begin, std::min(size_t{3} * kMostOfOneMiddle, indices.size() - begin));
         const auto part = LocalTriangles::of(run, local.positions);
-        const auto split = part.withCopiesOfBusyVertices(part.indices);
-        MeshletList made = split ? cut(*split, split->indices) : cut(part, part.indices);
+        MeshletList made = cut(part, part.indices);
         for (uint32_t& index : made.indices) {
             index = local.original(index);
         }
@@ -130,64 +181,9 @@ LocalTriangles::withCopiesOfBusyVertices(std::span<const uint32_t> some) const {
 }
 
 MeshletList cutIntoMeshlets(const LocalTriangles& local, std::span<const uint32_t> indices) {
-    if (middlesCoincide(local.positions, indices)) {
-        return cutInRuns(local, indices);
-    }
-    const auto split = local.withCopiesOfBusyVertices(indices);
-    return split ? cut(*split, split->indices) : cut(local, indices);
+    return middlesCoincide(local.positions, indices) ? cutInRuns(local, indices)
+                                                     : cut(local, indices);
 }
-
-namespace {
-
-MeshletList cut(const LocalTriangles& local, std::span<const uint32_t> indices) {
-    std::vector<uint32_t> ordered(indices.size());
-    meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(),
-                                local.positions.size());
-    const size_t bound =
-        meshopt_buildMeshletsBound(ordered.size(), kMeshletVertices, kMeshletTriangles);
-    std::vector<meshopt_Meshlet> meshlets(bound);
-    std::vector<uint32_t> vertices(bound * size_t{kMeshletVertices});
-    std::vector<unsigned char> triangles(bound * size_t{kMeshletTriangles} * 3);
-    const float* positions = &local.positions.front().x;
-    const size_t vertex_count = local.positions.size();
-    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(),
-                                          ordered.data(), ordered.size(), positions, vertex_count,
-                                          sizeof(glm::vec3), kMeshletVertices, kMeshletTriangles,
-                                          kConeWeight));
-    MeshletList list;
-    list.indices.reserve(ordered.size());
-    list.words.reserve(ordered.size() / 3 * 2);
-    list.meshlets.reserve(meshlets.size());
-    for (const auto& meshlet : meshlets) {
-        const auto bounds = meshopt_computeMeshletBounds(
-            &vertices[meshlet.vertex_offset], &triangles[meshlet.triangle_offset],
-            meshlet.triangle_count, positions, vertex_count, sizeof(glm::vec3));
-        list.meshlets.push_back(
-            {.first_index = static_cast<uint32_t>(list.indices.size()),
-             .index_count = meshlet.triangle_count * 3,
-             .first_word = static_cast<uint32_t>(list.words.size()),
-             .vertex_count = meshlet.vertex_count,
-             .center = {bounds.center[0], bounds.center[1], bounds.center[2]},
-             .radius = bounds.radius,
-             .cone_axis = {bounds.cone_axis[0], bounds.cone_axis[1], bounds.cone_axis[2]},
-             .cone_cutoff = bounds.cone_cutoff});
-        for (size_t i = 0; i < meshlet.vertex_count; ++i) {
-            list.words.push_back(local.original(vertices[meshlet.vertex_offset + i]));
-        }
-        for (size_t i = 0; i < meshlet.triangle_count; ++i) {
-            uint32_t triangle = 0;
-            for (size_t k = 0; k < 3; ++k) {
-                const uint32_t corner = triangles[meshlet.triangle_offset + 3 * i + k];
-                list.indices.push_back(local.original(vertices[meshlet.vertex_offset + corner]));
-                triangle |= corner << 8 * k;
-            }
-            list.words.push_back(triangle);
-        }
-    }
-    return list;
-}
-
-} // namespace
 
 MeshletPlace endOf(const MeshletList& list) {
     return behind({}, list);
