@@ -7,7 +7,6 @@
 #include "core/text.h"
 #include "formats/scene_loader.h"
 #include "gltf/load_result.h"
-#include "gltf/scene_folder.h"
 
 #include <array>
 #include <cerrno>
@@ -324,13 +323,8 @@ Result<scene::Scene> load(const fs::path& file,
     if (process.sandbox == Sandbox::kOff) {
         return formats::load(file, report, limits);
     }
-    return gltf::resultOf(file, [&] {
-        gltf::SceneFolder folder(file, limits.no_link);
-        auto scene = loadApart(folder, file, process, report, limits.memory_bytes);
-        if (scene) {
-            scene->files = folder.takeFiles();
-        }
-        return scene;
+    return gltf::loadOfFolder(file, limits.no_link, [&](gltf::FileOpener& folder) {
+        return loadApart(folder, file, process, report, limits.memory_bytes);
     });
 }
 

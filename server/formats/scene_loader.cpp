@@ -2,7 +2,6 @@
 
 #include "formats/glb_opener.h"
 #include "gltf/load_result.h"
-#include "gltf/scene_folder.h"
 #include "gltf/warnings.h"
 
 namespace froxel::formats {
@@ -26,16 +25,8 @@ Result<scene::Scene> loadFrom(gltf::FileOpener& opener,
 Result<scene::Scene> load(const std::filesystem::path& file,
                           const ProgressReport& report,
                           const gltf::LoadLimits& limits) {
-    if (!GlbOpener::isConverted(file)) {
-        return gltf::load(file, report, limits);
-    }
-    return gltf::resultOf(file, [&] {
-        gltf::SceneFolder folder(file, limits.no_link);
-        auto scene = formats::loadFrom(folder, file, report, limits.memory_bytes);
-        if (scene) {
-            scene->files = folder.takeFiles();
-        }
-        return scene;
+    return gltf::loadOfFolder(file, limits.no_link, [&](gltf::FileOpener& folder) {
+        return formats::loadFrom(folder, file, report, limits.memory_bytes);
     });
 }
 

@@ -5,7 +5,6 @@
 #include "gltf/load_result.h"
 #include "gltf/scene_builder.h"
 #include "gltf/scene_files.h"
-#include "gltf/scene_folder.h"
 
 namespace froxel::gltf {
 namespace {
@@ -32,11 +31,8 @@ scene::Scene read(FileOpener& opener,
 
 Result<scene::Scene>
 load(const std::filesystem::path& file, const ProgressReport& report, const LoadLimits& limits) {
-    return resultOf(file, [&] {
-        SceneFolder folder(file, limits.no_link);
-        scene::Scene scene = read(folder, file, report, limits.memory_bytes);
-        scene.files = folder.takeFiles();
-        return scene;
+    return loadOfFolder(file, limits.no_link, [&](FileOpener& folder) {
+        return loadFrom(folder, file, report, limits.memory_bytes);
     });
 }
 

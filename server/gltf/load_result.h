@@ -5,6 +5,7 @@
 #include "core/text.h"
 #include "gltf/failure.h"
 #include "gltf/load_progress.h"
+#include "gltf/scene_folder.h"
 #include "scene/scene.h"
 
 #include <exception>
@@ -39,6 +40,20 @@ template <class Load>
     } catch (const std::exception& error) {
         return sceneError(file, "cannot be read: " + printable(error.what(), 300));
     }
+}
+
+// What `load_from` gives of the scene's own folder, a Result, with the files that were looked for.
+template <class LoadFrom>
+[[nodiscard]] Result<scene::Scene>
+loadOfFolder(const std::filesystem::path& file, bool no_link, LoadFrom load_from) {
+    return resultOf(file, [&] {
+        SceneFolder folder(file, no_link);
+        Result<scene::Scene> scene = load_from(folder);
+        if (scene) {
+            scene->files = folder.takeFiles();
+        }
+        return scene;
+    });
 }
 
 } // namespace froxel::gltf
