@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace froxel::formats {
@@ -38,7 +39,7 @@ class GlbOpener final : public gltf::FileOpener {
     [[nodiscard]] static bool isConverted(const std::filesystem::path& file);
 
   private:
-    [[nodiscard]] Model readModel(const std::vector<std::byte>& bytes);
+    [[nodiscard]] Model readModel(std::string_view ending, const std::vector<std::byte>& bytes);
     [[nodiscard]] std::optional<std::vector<std::byte>> openBeside(const std::string& path);
 
     gltf::FileOpener& files_;

@@ -1,7 +1,9 @@
 #include "formats/obj_file.h"
 
 #include "core/text.h"
+#include "formats/side_path.h"
 #include "formats/srgb.h"
+#include "gltf/normals.h"
 
 #include <boost/interprocess/streams/bufferstream.hpp>
 
@@ -24,13 +26,6 @@ Stream streamOf(std::span<const std::byte> bytes) {
             std::ios::in | std::ios::binary};
 }
 
-// "C:\textures\wall 2.png" and "textures/wall 2.png": an absolute path is of another machine.
-std::string pathOf(std::string name) {
-    std::ranges::replace(name, '\\', '/');
-    const bool absolute = name.starts_with('/') || (name.size() > 1 && name[1] == ':');
-    return absolute ? name.substr(name.rfind('/') + 1) : name;
-}
-
 class MaterialFiles final : public tinyobj::MaterialReader {
   public:
     explicit MaterialFiles(const OpenBeside& open) : open_(open) {}
@@ -40,7 +35,7 @@ class MaterialFiles final : public tinyobj::MaterialReader {
                     std::map<std::string, int>* by_name,
                     std::string* /*warning*/,
                     std::string* /*error*/) override {
-        if (const auto bytes = open_(pathOf(name))) {
+        if (const auto bytes = open_(sidePath(name))) {
             Stream stream = streamOf(*bytes);
             std::string ignored; // of what MTL files say that is not read
             tinyobj::LoadMtl(by_name, materials, &stream, &ignored, &ignored);
@@ -59,7 +54,7 @@ glm::vec3 linear(const tinyobj::real_t (&color)[3]) {
 // v runs up there and down in glTF.
 Image imageOf(const std::string& name, const tinyobj::texture_option_t& option) {
     Image image;
-    image.path = pathOf(name);
+    image.path = sidePath(name);
     image.scale = {option.scale[0], option.scale[1]};
     image.offset = {option.origin_offset[0], 1 - option.scale[1] - option.origin_offset[1]};
     image.clamped = option.clamp;
@@ -164,15 +159,15 @@ class Lists {
 // Normals of the faces that have none: of a smoothing group each vertex has one, by area.
 class SmoothingGroups {
   public:
-    void add(unsigned group, int vertex, const glm::vec3& normal) {
-        sums_.try_emplace({group, vertex}, 0.0F).first->second += normal;
+    void add(unsigned group, int vertex, const glm::dvec3& normal) {
+        sums_.try_emplace({group, vertex}, 0.0).first->second += normal;
     }
-    [[nodiscard]] glm::vec3 normal(unsigned group, int vertex) const {
+    [[nodiscard]] glm::dvec3 normal(unsigned group, int vertex) const {
         return sums_.at({group, vertex});
     }
 
   private:
-    std::map<std::pair<unsigned, int>, glm::vec3> sums_;
+    std::map<std::pair<unsigned, int>, glm::dvec3> sums_;
 };
 
 // A shape's triangles as parts, one for each material.
@@ -186,7 +181,7 @@ class ShapeParts {
         for (size_t face = 0; face < count; ++face) {
             const unsigned group = mesh_.smoothing_group_ids[face];
             for (size_t corner = 0; group != 0 && corner < 3; ++corner) {
-                groups_.add(group, index(face, corner).vertex_index, areaNormal(face));
+                groups_.add(group, index(face, corner).vertex_index, normalOfFace(face));
             }
         }
         for (size_t face = 0; face < count; ++face) {
@@ -212,12 +207,11 @@ class ShapeParts {
         return mesh_.indices[3 * face + corner];
     }
 
-    // As long as the triangle's area, twice.
-    [[nodiscard]] glm::vec3 areaNormal(size_t face) const {
+    [[nodiscard]] glm::dvec3 normalOfFace(size_t face) const {
         const auto at = [&](size_t corner) {
             return lists_.position(first_face_ + face, index(face, corner).vertex_index);
         };
-        return glm::cross(at(1) - at(0), at(2) - at(0));
+        return gltf::areaNormal(at(0), at(1), at(2));
     }
 
     [[nodiscard]] glm::vec3 normalOf(size_t face, const tinyobj::index_t& corner) const {
@@ -225,10 +219,8 @@ class ShapeParts {
             return lists_.normal(first_face_ + face, corner.normal_index);
         }
         const unsigned group = mesh_.smoothing_group_ids[face];
-        const glm::vec3 sum =
-            group != 0 ? groups_.normal(group, corner.vertex_index) : areaNormal(face);
-        const float length = glm::length(sum);
-        return length > 0 ? sum / length : glm::vec3(0, 0, 1);
+        return gltf::unitNormal(group != 0 ? groups_.normal(group, corner.vertex_index)
+                                           : normalOfFace(face));
     }
 
     void addFace(size_t face, size_t material) {
@@ -327,8 +319,6 @@ Model readObj(std::span<const std::byte> file, const OpenBeside& open, gltf::War
         warnings.add(warning::kNotRead, "",
                      std::to_string(undrawn) + " lines and points are not drawn");
     }
-    warnings.add(warning::kAssumed, "",
-                 "OBJ has no unit and no axis: it is read in metres, with y up");
     return model;
 }
 

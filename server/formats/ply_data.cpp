@@ -4,8 +4,7 @@
 #include "formats/number_text.h"
 #include "gltf/failure.h"
 
-#include <boost/endian/conversion.hpp>
-
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -149,25 +148,7 @@ double PlyNumbers::next(PlyType type) {
     if (encoding_ == PlyHeader::Encoding::kText) {
         return nextOfText();
     }
-    switch (type) {
-    case PlyType::kInt8:
-        return nextOfBytes<int8_t>();
-    case PlyType::kUint8:
-        return nextOfBytes<uint8_t>();
-    case PlyType::kInt16:
-        return nextOfBytes<int16_t>();
-    case PlyType::kUint16:
-        return nextOfBytes<uint16_t>();
-    case PlyType::kInt32:
-        return nextOfBytes<int32_t>();
-    case PlyType::kUint32:
-        return nextOfBytes<uint32_t>();
-    case PlyType::kFloat:
-        return nextOfBytes<float>();
-    case PlyType::kDouble:
-        return nextOfBytes<double>();
-    }
-    return 0; // there is no other
+    return ofPlyType(type, [this]<class T>(T) { return nextOfBytes<T>(); });
 }
 
 size_t PlyNumbers::nextLength(PlyType type) {

@@ -13,6 +13,30 @@ namespace froxel::formats {
 
 enum class PlyType : uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
+// visit(T()) of the type's own T.
+template <class Visit>
+[[nodiscard]] double ofPlyType(PlyType type, Visit visit) {
+    switch (type) {
+    case PlyType::kInt8:
+        return visit(int8_t());
+    case PlyType::kUint8:
+        return visit(uint8_t());
+    case PlyType::kInt16:
+        return visit(int16_t());
+    case PlyType::kUint16:
+        return visit(uint16_t());
+    case PlyType::kInt32:
+        return visit(int32_t());
+    case PlyType::kUint32:
+        return visit(uint32_t());
+    case PlyType::kFloat:
+        return visit(float());
+    case PlyType::kDouble:
+        break;
+    }
+    return visit(double());
+}
+
 struct PlyProperty {
     std::string name;
     PlyType type = PlyType::kFloat;

@@ -2,14 +2,18 @@
 
 #include "core/text.h"
 #include "formats/ply_data.h"
-#include "formats/smooth_normals.h"
+#include "formats/side_path.h"
 #include "formats/srgb.h"
+#include "gltf/normals.h"
+#include "gltf/triangles.h"
 
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace froxel::formats {
@@ -29,24 +33,26 @@ size_t placeOf(const PlyElement& element, std::initializer_list<std::string_view
 
 // What an integer has where a number from 0 to 1 is meant.
 double spanOf(PlyType type) {
-    switch (type) {
-    case PlyType::kInt8:
-        return std::numeric_limits<int8_t>::max();
-    case PlyType::kUint8:
-        return std::numeric_limits<uint8_t>::max();
-    case PlyType::kInt16:
-        return std::numeric_limits<int16_t>::max();
-    case PlyType::kUint16:
-        return std::numeric_limits<uint16_t>::max();
-    case PlyType::kInt32:
-        return std::numeric_limits<int32_t>::max();
-    case PlyType::kUint32:
-        return std::numeric_limits<uint32_t>::max();
-    case PlyType::kFloat:
-    case PlyType::kDouble:
-        break;
+    return ofPlyType(type, []<class T>(T) {
+        return std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1.0;
+    });
+}
+
+// Of each vertex, by the areas of its triangles.
+std::vector<glm::vec3> smoothNormals(const Part& part) {
+    std::vector<glm::dvec3> sums(part.positions.size(), glm::dvec3(0));
+    for (size_t i = 0; i + 2 < part.indices.size(); i += 3) {
+        const uint32_t* const corners = &part.indices[i];
+        const glm::dvec3 normal = gltf::areaNormal(
+            part.positions[corners[0]], part.positions[corners[1]], part.positions[corners[2]]);
+        for (size_t corner = 0; corner < 3; ++corner) {
+            sums[corners[corner]] += normal;
+        }
     }
-    return 1;
+    std::vector<glm::vec3> normals;
+    normals.reserve(sums.size());
+    std::ranges::transform(sums, std::back_inserter(normals), gltf::unitNormal);
+    return normals;
 }
 
 // An element's items, one after the other.
@@ -172,25 +178,16 @@ void readFaces(Items items,
 
 // A vertex for each corner.
 void spread(Part& part, std::vector<glm::vec2> corner_texcoords) {
-    const auto spreadOne = [&](auto& values) {
-        const auto old = std::exchange(values, {});
-        if (!old.empty()) {
-            values.reserve(part.indices.size());
-            for (const uint32_t index : part.indices) {
-                values.push_back(old[index]);
-            }
-        }
-    };
-    spreadOne(part.positions);
-    spreadOne(part.normals);
-    spreadOne(part.colors);
+    part.positions = gltf::unshared(part.positions, part.indices);
+    part.normals = gltf::unshared(part.normals, part.indices);
+    part.colors = gltf::unshared(part.colors, part.indices);
     part.texcoords = std::move(corner_texcoords);
     part.indices.clear();
 }
 
 } // namespace
 
-Model readPly(std::span<const std::byte> file, gltf::Warnings& warnings) {
+Model readPly(std::span<const std::byte> file) {
     const PlyHeader header =
         readPlyHeader({reinterpret_cast<const char*>(file.data()), file.size()});
     PlyNumbers numbers(file, header);
@@ -213,16 +210,14 @@ Model readPly(std::span<const std::byte> file, gltf::Warnings& warnings) {
                    " vertices and no faces; points are not drawn");
     }
     if (part.normals.empty()) {
-        part.normals = smoothNormals(part.positions, part.indices);
+        part.normals = smoothNormals(part);
     }
     if (!corner_texcoords.empty()) {
         spread(part, std::move(corner_texcoords));
     }
-    warnings.add(warning::kAssumed, "",
-                 "PLY has no unit and no axis: it is read in metres, with y up");
     Model model;
     Material& material = model.materials.emplace_back();
-    material.base_color_image.path = part.texcoords.empty() ? "" : header.texture_file;
+    material.base_color_image.path = part.texcoords.empty() ? "" : sidePath(header.texture_file);
     if (!part.colors.empty() || !material.base_color_image.path.empty()) {
         material.base_color = glm::vec4(1.0F);
     }

@@ -12,6 +12,6 @@ namespace froxel::formats {
 // of faces, whose polygons are taken for convex; the image that "comment TextureFile" names. What
 // has no normals is smooth. PLY has no unit and no axis: it is read in metres with y up. Throws
 // gltf::Failure, whatever the bytes are.
-[[nodiscard]] Model readPly(std::span<const std::byte> file, gltf::Warnings& warnings);
+[[nodiscard]] Model readPly(std::span<const std::byte> file);
 
 } // namespace froxel::formats

@@ -1,5 +1,6 @@
 #include "formats/stl_file.h"
 
+#include "core/binary_stl.h"
 #include "formats/number_text.h"
 
 #include <boost/spirit/home/x3.hpp>
@@ -14,27 +15,20 @@ namespace {
 
 namespace x3 = boost::spirit::x3;
 
-constexpr size_t kHeaderBytes = 84; // 80 of text, and how many triangles there are
-constexpr size_t kTriangleBytes = 50;
 constexpr size_t kNormalBytes = 12;
 constexpr size_t kCornerBytes = 12;
 
-size_t triangleCount(std::span<const std::byte> file) {
-    uint32_t count = 0;
-    std::memcpy(&count, file.data() + kHeaderBytes - sizeof count, sizeof count);
-    return count;
-}
-
 std::vector<glm::vec3> readBinary(std::span<const std::byte> file) {
-    const size_t count = triangleCount(file);
-    if ((file.size() - kHeaderBytes) / kTriangleBytes < count) {
+    const size_t count = binary_stl::triangleCount(file);
+    if (file.size() < binary_stl::sizeBytes(file)) {
         gltf::fail("it is no STL file, or was cut short: it has " + std::to_string(file.size()) +
                    " bytes, and " + std::to_string(count) + " triangles take " +
-                   std::to_string(kHeaderBytes + count * kTriangleBytes));
+                   std::to_string(binary_stl::sizeBytes(file)));
     }
     std::vector<glm::vec3> corners(3 * count);
     for (size_t i = 0; i < corners.size(); ++i) {
-        const std::byte* const triangle = file.data() + kHeaderBytes + i / 3 * kTriangleBytes;
+        const std::byte* const triangle =
+            file.data() + binary_stl::kHeaderBytes + i / 3 * binary_stl::kTriangleBytes;
         std::memcpy(&corners[i], triangle + kNormalBytes + i % 3 * kCornerBytes, kCornerBytes);
     }
     return corners;
@@ -73,24 +67,21 @@ bool isText(std::span<const std::byte> file) {
     const size_t begin = text.find_first_not_of(" \t\r\n");
     // Many binary files begin so, too.
     return begin != std::string_view::npos && text.substr(begin).starts_with(kFirst) &&
-           (file.size() < kHeaderBytes ||
-            file.size() != kHeaderBytes + triangleCount(file) * kTriangleBytes);
+           (file.size() < binary_stl::kHeaderBytes || file.size() != binary_stl::sizeBytes(file));
 }
 
 } // namespace
 
-Model readStl(std::span<const std::byte> file, gltf::Warnings& warnings) {
+Model readStl(std::span<const std::byte> file) {
     Part part;
     if (isText(file)) {
         part.positions = readText({reinterpret_cast<const char*>(file.data()), file.size()});
-    } else if (file.size() >= kHeaderBytes) {
+    } else if (file.size() >= binary_stl::kHeaderBytes) {
         part.positions = readBinary(file);
     }
     if (part.positions.empty()) {
         gltf::fail("it has no triangles; expected an STL file with some");
     }
-    warnings.add(warning::kAssumed, "",
-                 "STL has no unit and no axis: it is read in millimetres, with z up");
     Model model;
     model.unit_m = 1e-3;
     model.z_up = true;

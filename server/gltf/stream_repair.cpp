@@ -1,6 +1,7 @@
 #include "gltf/stream_repair.h"
 
 #include "core/finite.h"
+#include "gltf/normals.h"
 
 #include <algorithm>
 
@@ -96,15 +97,13 @@ void recomputeNormals(scene::Primitive& primitive, const std::vector<uint32_t>& 
         const glm::dvec3 a(primitive.positions[corners[0]]);
         const glm::dvec3 b(primitive.positions[corners[1]]);
         const glm::dvec3 c(primitive.positions[corners[2]]);
-        const glm::dvec3 twice_area = glm::cross(b - a, c - a);
+        const glm::dvec3 twice_area = areaNormal(a, b, c);
         for (size_t corner = 0; corner < 3; ++corner) {
             sums[corners[corner]] += twice_area;
         }
     }
     for (const uint32_t vertex : vertices) {
-        const double length = glm::length(sums[vertex]);
-        primitive.normals[vertex] =
-            length > 0 ? glm::vec3(sums[vertex] / length) : glm::vec3(0, 1, 0);
+        primitive.normals[vertex] = unitNormal(sums[vertex]);
     }
 }
 

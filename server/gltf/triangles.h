@@ -18,6 +18,20 @@ enum class Topology { kTriangles, kStrip, kFan };
 // last whole triangle is dropped.
 [[nodiscard]] std::vector<uint32_t> triangleList(Topology topology, std::vector<uint32_t> indices);
 
+// A value for each index.
+template <class T>
+[[nodiscard]] std::vector<T> unshared(const std::vector<T>& stream,
+                                      const std::vector<uint32_t>& indices) {
+    std::vector<T> corners;
+    if (!stream.empty()) {
+        corners.reserve(indices.size());
+        for (const uint32_t index : indices) {
+            corners.push_back(stream[index]);
+        }
+    }
+    return corners;
+}
+
 // Gives every corner of every triangle its own vertex with the triangle's normal, as the
 // specification asks where a file has no normals. A triangle without area gets +Y.
 void makeFlat(scene::Primitive& primitive);

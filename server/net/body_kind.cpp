@@ -1,8 +1,10 @@
 #include "net/body_kind.h"
 
+#include "core/binary_stl.h"
+
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <span>
 
 namespace froxel::net {
 
@@ -10,16 +12,9 @@ namespace {
 
 constexpr std::string_view kBlank = " \t\r\n";
 
-// A binary STL file has no mark, but its length tells its number of triangles, which it also has.
 bool isBinaryStl(std::string_view begin, uint64_t size_bytes) {
-    constexpr size_t kHeaderBytes = 84;
-    constexpr uint64_t kTriangleBytes = 50;
-    if (begin.size() < kHeaderBytes) {
-        return false;
-    }
-    uint32_t count = 0;
-    std::memcpy(&count, begin.data() + kHeaderBytes - sizeof count, sizeof count);
-    return size_bytes == kHeaderBytes + count * kTriangleBytes;
+    const auto bytes = std::as_bytes(std::span(begin));
+    return bytes.size() >= binary_stl::kHeaderBytes && size_bytes == binary_stl::sizeBytes(bytes);
 }
 
 bool isObjWord(std::string_view word) {

@@ -91,7 +91,7 @@ TEST(Ply, ColoursAreSrgb_AndNormalsTheFiles) {
 
 TEST(Ply, TextureCoordinatesOfCorners) {
     Files files;
-    files.add("a.ply", headed("comment TextureFile my scan.png\nelement vertex 3\n"
+    files.add("a.ply", headed("comment TextureFile C:\\scans\\my scan.png\nelement vertex 3\n"
                               "property float x\nproperty float y\nproperty float z\n"
                               "element face 1\nproperty list uchar int vertex_indices\n"
                               "property list uchar float texcoord\nend_header\n"
