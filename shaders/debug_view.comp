@@ -49,6 +49,10 @@ uint byteMosaic(uvec2 pixel) {
     return 0xff000000u | value * 0x010101u;
 }
 
+uint instanceColor(uint number) {
+    return kDebugEmpty ^ ((number * kInstanceColorFactor) & kInstanceColorMask);
+}
+
 uint tileColor(uvec2 pixel) {
     uvec2 tile = pixel / uvec2(frame.tile_width_px, frame.tile_height_px);
     uvec2 last = max(uvec2(frame.tile_count_x, frame.tile_count_y) - 1u, 1u);
@@ -125,6 +129,8 @@ uint debugColor(uvec2 pixel) {
         return tileColor(pixel);
     case kDebugOverdraw:
         return heatOfCount(uint(imageLoad(radiance_image, ivec2(pixel)).x));
+    case kDebugInstances:
+        return instanceColor(uint(imageLoad(radiance_image, ivec2(pixel)).x));
     default:
         break;
     }

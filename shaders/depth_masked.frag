@@ -1,4 +1,4 @@
-// Alpha cut-out for the depth prepass, or for the count of fragments.
+// Alpha cut-out for the depth prepass, or for what a debug view stores of each fragment.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -9,15 +9,21 @@
 #include "lib/material.glsl"
 #include "lib/fragment_inputs.glsl"
 
-#ifdef FROXEL_COUNT
-layout(location = 0) out vec4 count;
+#if defined(FROXEL_COUNT) || defined(FROXEL_INSTANCE)
+#include "lib/stored_fragment.glsl"
 #endif
 
 void main() {
-    if (maskedOut(baseColor(vertexData()))) {
+    vec4 base = baseColor(vertexData());
+    if (maskedOut(base)) {
         discard;
     }
-#ifdef FROXEL_COUNT
-    count = vec4(1.0);
+#ifdef FROXEL_INSTANCE
+    if (hasMaterial(kMaterialBlend) && base.a <= 0.0) {
+        discard; // there is nothing to see of it
+    }
+#endif
+#if defined(FROXEL_COUNT) || defined(FROXEL_INSTANCE)
+    stored = fragmentValue();
 #endif
 }

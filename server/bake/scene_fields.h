@@ -71,7 +71,7 @@ FROXEL_FIELDS(scene::Primitive,
               v.variant_materials,
               v.bounds)
 FROXEL_FIELDS(scene::Mesh, 0, v.name, v.primitives)
-FROXEL_FIELDS(scene::Instance, 0, v.mesh, v.world_from_object, v.name)
+FROXEL_FIELDS(scene::Instance, 0, v.mesh, v.world_from_object, v.name, v.node)
 FROXEL_FIELDS(settings::Camera,
               0,
               v.eye_world,

@@ -179,7 +179,12 @@ class Builder {
         placed_primitives_.take(scene_.meshes[mesh].primitives.size(), nameOf(place));
         motion_.addInstance(
             {static_cast<uint32_t>(scene_.instances.size()), place, glm::dmat4(1), deformed});
-        scene_.instances.push_back({mesh, placed_[place].world_from_node, node.name});
+        addInstance(place, mesh, placed_[place].world_from_node);
+    }
+
+    void addInstance(uint32_t place, uint32_t mesh, const glm::dmat4& world_from_object) {
+        scene_.instances.push_back({mesh, world_from_object, nodeAt(place).name,
+                                    static_cast<uint32_t>(placed_[place].node)});
     }
 
     void addInstances(uint32_t place, uint32_t mesh, bool moves) {
@@ -198,7 +203,7 @@ class Builder {
                 motion_.addInstance({static_cast<uint32_t>(scene_.instances.size()), place,
                                      node_from_object, scene::kNone});
             }
-            scene_.instances.push_back({mesh, world, node.name});
+            addInstance(place, mesh, world);
         }
     }
 

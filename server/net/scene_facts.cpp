@@ -3,7 +3,13 @@
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <ranges>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace froxel::net {
 
@@ -47,7 +53,52 @@ Json extensionsOf(const session::SceneSummary& scene) {
     return {{"used", std::move(used)}, {"missing", std::move(missing)}};
 }
 
+struct SeenNode {
+    const session::PlacingNode* node = nullptr;
+    uint64_t pixels = 0;
+};
+
+// By their pixels, most first. Those of instances that the scene lacks are its last node's.
+std::vector<SeenNode> seenNodes(const session::SceneSummary& scene,
+                                const still::CoveredPixels& pixels) {
+    std::vector<SeenNode> seen;
+    for (const auto& [instance, count] : pixels.of_instance) {
+        const auto next = std::ranges::upper_bound(scene.nodes, instance, {},
+                                                   &session::PlacingNode::first_instance);
+        if (next == scene.nodes.begin()) {
+            continue;
+        }
+        const session::PlacingNode* node = &*std::prev(next);
+        if (seen.empty() || seen.back().node != node) {
+            seen.push_back({node, 0});
+        }
+        seen.back().pixels += count;
+    }
+    std::ranges::stable_sort(seen, std::greater<>(), &SeenNode::pixels);
+    return seen;
+}
+
 } // namespace
+
+Json coverageOf(const session::SceneSummary& scene, const still::CoveredPixels& pixels) {
+    constexpr size_t kMostListed = 100;
+    const std::vector<SeenNode> seen = seenNodes(scene, pixels);
+    uint64_t covered = 0;
+    for (const auto& [instance, count] : pixels.of_instance) {
+        covered += count;
+    }
+    Json nodes = Json::array();
+    for (const SeenNode& of : seen | std::views::take(kMostListed)) {
+        const uint32_t number = of.node->node;
+        nodes.push_back({{"node", number == scene::kNone ? Json(nullptr) : Json(number)},
+                         {"name", of.node->name},
+                         {"pixels", of.pixels}});
+    }
+    const size_t left_out = seen.size() - nodes.size();
+    return {{"covered", static_cast<double>(covered) / static_cast<double>(pixels.total)},
+            {"nodes", std::move(nodes)},
+            {"nodes_left_out", left_out}};
+}
 
 Json factsOf(const session::SceneSummary& scene) {
     Json cameras = Json::array();

@@ -21,6 +21,7 @@ still::StillRefusal refusalOf(const Error& error) {
 }
 
 constexpr const char* kDebugView = "debug_view";
+constexpr const char* kSurveyView = "instances"; // settings::kDebugViewNames
 
 bool isDebugView(const still::Entry& entry) {
     return entry.name == kDebugView;
@@ -48,8 +49,8 @@ still::StillRequest StillSeries::requestOf(size_t place) const {
     request.view.push_back({"view", name});
     request.tag += "\nview=" + name;
     if (place >= plan_.views.size()) {
-        request.view.push_back({kDebugView, "depth"});
-        request.tag += "\ndepth";
+        request.view.push_back({kDebugView, kSurveyView});
+        request.tag += "\n" + std::string(kSurveyView);
     }
     request.codec = settings::Codec::kPng;
     request.kept = false; // each is drawn, and so it is known of what
@@ -150,11 +151,11 @@ StillSeries::Made StillSeries::facts(std::span<const still::StillPicture> pictur
         }
         nlohmann::ordered_json view{{"view", plan_.views[place]->name}};
         if (pictures.size() > views) {
-            const auto covered = still::coveredShare(pictures[views + place].bytes);
+            const auto covered = still::coveredPixels(pictures[views + place].bytes);
             if (!covered) {
                 return refusalOf(covered.error());
             }
-            view["covered"] = *covered;
+            view.update(coverageOf(pictures.front().scene->scene, *covered));
         }
         view["near_black"] = facts->near_black;
         view["near_white"] = facts->near_white;

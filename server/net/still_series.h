@@ -53,7 +53,7 @@ class StillSeries : public std::enable_shared_from_this<StillSeries> {
     const std::optional<session::Account> account_;
     const std::function<void(Made)> done_;
     std::mutex mutex_;
-    // By view; behind them, for facts, each view's depth. Without bytes: not drawn yet.
+    // By view; behind them, for facts, the instances that each shows. Without bytes: not drawn yet.
     std::vector<still::StillPicture> pictures_;
     std::vector<still::StillDesk::Ticket> tickets_;
     size_t missing_;

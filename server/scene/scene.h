@@ -165,7 +165,8 @@ struct Mesh {
 struct Instance {
     uint32_t mesh = 0;
     glm::dmat4 world_from_object{1}; // affine; may mirror and scale non-uniformly
-    std::string name;
+    std::string name;                // of the node that places it
+    uint32_t node = kNone;           // which of the file's; kNone: it is built in
 };
 
 struct NamedCamera {

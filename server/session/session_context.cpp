@@ -30,7 +30,11 @@ SceneSummary summarize(const scene::Scene& scene) {
     summary.extensions = scene.extensions;
     summary.warnings = scene.warnings;
     summary.warnings_left_out = scene.warnings_left_out;
-    for (const scene::Instance& instance : scene.instances) {
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const scene::Instance& instance = scene.instances[i];
+        if (i == 0 || instance.node == scene::kNone || instance.node != summary.nodes.back().node) {
+            summary.nodes.push_back({static_cast<uint32_t>(i), instance.node, instance.name});
+        }
         for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             summary.triangle_count += static_cast<uint32_t>(primitive.indices.size() / 3);
             ++summary.draw_count;

@@ -19,6 +19,13 @@
 
 namespace froxel::session {
 
+// A node of the file, with the instances that it places.
+struct PlacingNode {
+    uint32_t first_instance = 0; // of scene::Scene::instances; the next node's ends them
+    uint32_t node = 0;           // scene::Instance::node
+    std::string name;
+};
+
 // What is left of a scene when its geometry has gone to the device.
 struct SceneSummary {
     std::string name;
@@ -33,6 +40,7 @@ struct SceneSummary {
     uint32_t material_variant = 0;               // at first; from 1, 0: none
     BoundsD3 bounds_world;                       // empty for an empty scene
     std::shared_ptr<const scene::Motion> motion; // null: it rests
+    std::vector<PlacingNode> nodes;              // by first_instance
     std::vector<scene::Extension> extensions;
     std::vector<scene::Warning> warnings;
     uint64_t warnings_left_out = 0;

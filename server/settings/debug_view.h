@@ -31,6 +31,8 @@ enum class DebugView : uint8_t {
     // Over the lit picture, as lines:
     kLightSpheres, // where lights end; of spots their cones
     kClusterWires, // the cluster grid, of the view's camera or of a frozen one
+    // Of solid and blended surfaces:
+    kInstances, // which placed mesh is nearest, each in a colour of its own
 };
 inline constexpr std::array kDebugViewNames = {std::string_view("none"),
                                                std::string_view("position"),
@@ -48,7 +50,8 @@ inline constexpr std::array kDebugViewNames = {std::string_view("none"),
                                                std::string_view("false_positives"),
                                                std::string_view("overdraw"),
                                                std::string_view("light_spheres"),
-                                               std::string_view("cluster_wires")};
+                                               std::string_view("cluster_wires"),
+                                               std::string_view("instances")};
 
 [[nodiscard]] constexpr std::string_view nameOf(DebugView view) {
     return kDebugViewNames[static_cast<size_t>(view)];
@@ -68,6 +71,10 @@ inline constexpr std::array kDebugViewNames = {std::string_view("none"),
 }
 [[nodiscard]] constexpr bool showsGbuffer(DebugView view) {
     return view == DebugView::kGbuffer || view == DebugView::kGbufferExtra;
+}
+// Has a pass that rasters a value of each fragment.
+[[nodiscard]] constexpr bool showsFragments(DebugView view) {
+    return view == DebugView::kOverdraw || view == DebugView::kInstances;
 }
 // Needs clusters, whatever the renderer loops over.
 [[nodiscard]] constexpr bool showsClusters(DebugView view) {

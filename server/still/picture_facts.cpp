@@ -39,6 +39,22 @@ Result<Rgba8Pixels> pixelsOf(const SharedBytes& png) {
     return pixels;
 }
 
+// What gives 1 modulo 2^32, times an odd number; each step doubles the bits that are right.
+constexpr uint32_t inverse(uint32_t odd) {
+    uint32_t x = odd; // three bits
+    for (int bits = 3; bits < 32; bits *= 2) {
+        x *= 2 - odd * x;
+    }
+    return x;
+}
+static_assert(inverse(io::kInstanceColorFactor) * io::kInstanceColorFactor == 1);
+
+// Of the instance, from 1; 0: of none.
+uint32_t numberAt(const Rgba8& at) {
+    const uint32_t product = std::bit_cast<uint32_t>(at) ^ io::kDebugEmpty;
+    return product * inverse(io::kInstanceColorFactor) & io::kInstanceColorMask;
+}
+
 template <class Is>
 double share(const Rgba8Pixels& pixels, Is is) {
     return static_cast<double>(std::ranges::count_if(pixels, is)) /
@@ -55,13 +71,21 @@ Result<PictureFacts> factsOf(const SharedBytes& png) {
     return PictureFacts{share(*pixels, isNearBlack), share(*pixels, isNearWhite)};
 }
 
-Result<double> coveredShare(const SharedBytes& png) {
+Result<CoveredPixels> coveredPixels(const SharedBytes& png) {
     const auto pixels = pixelsOf(png);
     if (!pixels) {
         return pixels.error();
     }
-    return share(*pixels,
-                 [](const Rgba8& at) { return std::bit_cast<uint32_t>(at) != io::kDebugEmpty; });
+    std::vector<uint32_t> numbers(pixels->size());
+    std::ranges::transform(*pixels, numbers.begin(), numberAt);
+    std::ranges::sort(numbers);
+    CoveredPixels covered{numbers.size(), {}};
+    for (auto at = std::ranges::upper_bound(numbers, 0U); at != numbers.end();) {
+        const auto end = std::ranges::upper_bound(at, numbers.end(), *at);
+        covered.of_instance.emplace(*at - 1, end - at);
+        at = end;
+    }
+    return covered;
 }
 
 } // namespace froxel::still

@@ -21,8 +21,21 @@ FROXEL_CONST uint kDebugEvaluatedLights = 11U;
 FROXEL_CONST uint kDebugContributingLights = 12U;
 FROXEL_CONST uint kDebugFalsePositives = 13U;
 FROXEL_CONST uint kDebugOverdraw = 14U;
+FROXEL_CONST uint kDebugInstances = 17U;
 
 FROXEL_CONST uint kDebugEmpty = 0xff202020U; // RGBA8 where there is nothing to show
+
+// Where an instance is nearest: kDebugEmpty ^ (its number, from 1, times this, modulo 2^24). The
+// factor is 2^24 divided by the golden ratio, which sets neighbouring numbers apart (Knuth, The Art
+// of Computer Programming, 6.4), and odd, so that each number has its own colour.
+FROXEL_CONST uint kInstanceColorFactor = 0x9e3779U;
+FROXEL_CONST uint kInstanceColorMask = 0xffffffU;
+
+// Push constants of a draw that stores its instance in the radiance target.
+struct InstanceDraw {
+    uint number; // from 1
+};
+FROXEL_SIZE_ASSERT(InstanceDraw, 4);
 
 struct DebugFrame {
     // World axes in view space; w: the eye's distance from the scene's least corner along each.

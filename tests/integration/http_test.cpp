@@ -129,6 +129,7 @@ TEST_F(HttpTest, Still_AsFacts_IsJson) {
     const double black = facts.at("views")[0].at("near_black");
     EXPECT_TRUE(black >= 0 && black <= 1) << black;
     EXPECT_TRUE(facts.at("views")[0].contains("covered"));
+    EXPECT_TRUE(facts.at("views")[0].at("nodes").is_array());
     EXPECT_EQ(facts.at("extensions").at("used"), nlohmann::json::array());
     const auto first = nlohmann::json::parse(bodyOf(get("/render?size=64x48&format=json")));
     EXPECT_EQ(first.at("views")[0].at("view"), "first");

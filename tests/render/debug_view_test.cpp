@@ -273,6 +273,69 @@ TEST_F(DebugViews, Overdraw_AddsUpToTheSamplesThatPass) {
     EXPECT_DOUBLE_EQ(static_cast<double>(fragments) / pixels, *counted);
 }
 
+namespace {
+
+// A square that faces the eye; x, y: of its lower left corner.
+scene::Primitive squareAt(float x, float y, float distance_m, uint32_t material) {
+    constexpr float kSide_m = 20;
+    return quad({x, y, -distance_m}, {kSide_m, 0, 0}, {0, kSide_m, 0}, 1, material);
+}
+
+scene::Material ofAlpha(scene::AlphaMode mode, float alpha) {
+    scene::Material material = chalk();
+    material.alpha_mode = mode;
+    material.base_color.w = alpha;
+    return material;
+}
+
+uint32_t colorOfInstance(uint32_t instance) {
+    const uint32_t product = (instance + 1) * io::kInstanceColorFactor & io::kInstanceColorMask;
+    return io::kDebugEmpty ^ product;
+}
+
+} // namespace
+
+// A wall; before its right half another; nearer, from left to right and below, what is cut away,
+// what a mask keeps, what is blended; nearest and over all of it, what shows nothing.
+TEST_F(DebugViews, Instances_AtEveryPixel_AreTheNearestThatShow) {
+    using scene::AlphaMode;
+    auto maker = wallAhead(kWall_m);
+    const uint32_t cut = maker.add(ofAlpha(AlphaMode::kMask, 0.2F));
+    const uint32_t kept = maker.add(ofAlpha(AlphaMode::kMask, 0.8F));
+    const uint32_t blended = maker.add(ofAlpha(AlphaMode::kBlend, 0.3F));
+    const uint32_t nothing = maker.add(ofAlpha(AlphaMode::kBlend, 0));
+    maker.add(squareAt(0, -10, 4, 0))
+        .add(squareAt(-20, -20, 3, cut))
+        .add(squareAt(-20, -20, 3.5F, kept))
+        .add(squareAt(0, -20, 3, blended))
+        .add(squareAt(-10, -10, 1, nothing));
+    render::Renderer renderer(device(), maker.scene);
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFor(DebugView::kInstances);
+    for (const auto kind :
+         {Renderer::kNaive, Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
+        inputs.settings.renderer = kind;
+        const Shown shown = show(view, inputs);
+        for (uint32_t y = 0; y < kSize.height_px; ++y) {
+            for (uint32_t x = 0; x < kSize.width_px; ++x) {
+                const bool right = x >= kSize.width_px / 2;
+                const bool below = y >= kSize.height_px / 2;
+                const uint32_t nearest = right ? (below ? 4 : 1) : (below ? 3 : 0);
+                ASSERT_EQ(shown.at(x, y), colorOfInstance(nearest)) << x << "," << y;
+            }
+        }
+    }
+}
+
+TEST_F(DebugViews, Instances_WhereNothingIs_AreEmpty) {
+    SceneMaker maker;
+    maker.add(squareAt(0, -10, 4, 0));
+    render::Renderer renderer(device(), maker.scene);
+    const Shown shown = show(renderer, inputsFor(DebugView::kInstances));
+    EXPECT_EQ(shown.at(47, 20), io::kDebugEmpty);
+    EXPECT_EQ(shown.at(48, 20), colorOfInstance(0));
+}
+
 TEST_F(DebugViews, LightSpheres_OfOneLight_HitItsCircleAndNothingElse) {
     auto maker = wallAhead(40);
     const glm::dvec3 place(1, 0.5, -10);

@@ -374,7 +374,7 @@ TEST_F(Moving, DebugViews_ShowThePose) {
     render::Renderer moving(device(), scene);
     render::Renderer resting(device(), posedAt(scene, 1.25));
     for (const auto debug : {settings::DebugView::kDepth, settings::DebugView::kOverdraw,
-                             settings::DebugView::kNormal}) {
+                             settings::DebugView::kNormal, settings::DebugView::kInstances}) {
         auto inputs = inputsFor(scene, Renderer::kClusteredDeferred, 1.25);
         inputs.settings.debug.view = debug;
         const auto differing = [&](const render::FrameInputs& asked) {

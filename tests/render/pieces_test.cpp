@@ -247,10 +247,10 @@ TEST_F(Pieces, BlendedSurfaces_DrawTheSameBits) {
 }
 
 TEST_F(Pieces, DebugViews_DrawTheSameBits) {
-    for (const auto view :
-         {settings::DebugView::kDepth, settings::DebugView::kEvaluatedLights,
-          settings::DebugView::kOverdraw, settings::DebugView::kGbuffer,
-          settings::DebugView::kClusterWires, settings::DebugView::kLightSpheres}) {
+    for (const auto view : {settings::DebugView::kDepth, settings::DebugView::kEvaluatedLights,
+                            settings::DebugView::kOverdraw, settings::DebugView::kInstances,
+                            settings::DebugView::kGbuffer, settings::DebugView::kClusterWires,
+                            settings::DebugView::kLightSpheres}) {
         auto asked = inputs();
         asked.settings.debug.view = view;
         expectSame(asked, false);

@@ -84,6 +84,7 @@ const std::array kFrames = {
                   f.settings.shadows = {.light_count = 4, .size_px = 64};
               }},
     StepFrame{"overdraw", [](FrameInputs& f) { f.settings.debug.view = DebugView::kOverdraw; }},
+    StepFrame{"instances", [](FrameInputs& f) { f.settings.debug.view = DebugView::kInstances; }},
     StepFrame{"normals", [](FrameInputs& f) { f.settings.debug.view = DebugView::kNormal; }},
     StepFrame{"spheres", [](FrameInputs& f) { f.settings.debug.view = DebugView::kLightSpheres; }},
     StepFrame{"linear picture", [](FrameInputs& f) { f.outputs = {Output::kRadiance}; }},

@@ -18,6 +18,7 @@ using settings::DebugView;
 
 static_assert(io::kDebugPosition == static_cast<uint32_t>(DebugView::kPosition));
 static_assert(io::kDebugOverdraw == static_cast<uint32_t>(DebugView::kOverdraw));
+static_assert(io::kDebugInstances == static_cast<uint32_t>(DebugView::kInstances));
 
 constexpr double kOverdrawScale = 8;
 constexpr double kShortestListScale = 8;
@@ -82,6 +83,7 @@ const char* wordsOf(DebugView view) {
         "Fragments that passed the depth test, as drawn",
         "Spheres at the lights' radii; faint behind surfaces",
         "Clusters; faint behind surfaces",
+        "Placed meshes: the nearest surface's, each in a colour of its own",
     };
     static_assert(kWords.size() == settings::kDebugViewNames.size());
     return kWords[static_cast<size_t>(view)];

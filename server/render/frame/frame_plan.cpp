@@ -80,8 +80,8 @@ Solid solidOf(const settings::ViewSettings& settings, const FrameFacts& facts) {
     if (!settings::replacesPicture(debug)) {
         return forward ? Solid::kForward : Solid::kDeferred;
     }
-    if (debug == settings::DebugView::kOverdraw) {
-        return Solid::kOverdraw;
+    if (settings::showsFragments(debug)) {
+        return Solid::kFragments;
     }
     // Depths that compute rasters are exact once the G-buffer is filled.
     return !forward || settings::showsMaterial(debug) ||
@@ -123,7 +123,7 @@ FramePlan planVariants(const settings::ViewSettings& settings, const FrameFacts&
                            : (settings.renderer != settings::Renderer::kNaive ||
                               settings::showsClusters(plan.debug)));
     plan.lights_in_compute = lightsInCompute(settings, facts, plan);
-    plan.count_samples = facts.overdraw_unknown && !plan.byIds() && plan.solid != Solid::kOverdraw;
+    plan.count_samples = facts.overdraw_unknown && !plan.byIds() && plan.solid != Solid::kFragments;
     plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
     plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, plan.lights_in_compute);
     plan.tone_output_flags = settings.tone_map == settings::ToneMap::kClamp ? io::kOutputClamp : 0U;

@@ -75,7 +75,7 @@ enum class Solid : uint8_t {
     kDeferred,     // they fill a G-buffer, which is lit
     kShownGbuffer, // a debug view shows a G-buffer in the picture's place
     kShownDepth,   // or what needs depth alone
-    kOverdraw,     // or how often a pixel is drawn over
+    kFragments,    // or a value of each fragment
 };
 
 struct FramePlan {

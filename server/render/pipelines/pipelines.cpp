@@ -17,10 +17,10 @@ namespace {
 using Stage = vk::ShaderStageFlagBits;
 using Type = vk::DescriptorType;
 
-constexpr std::array<std::string_view, 11> kGeometryNames = {
+constexpr std::array<std::string_view, 12> kGeometryNames = {
     "depth prepass", "gbuffer",  "gbuffer after depth", "forward",    "forward after depth",
     "transparent",   "weighted", "peel select",         "peel shade", "peel count",
-    "overdraw"};
+    "overdraw",      "instances"};
 constexpr std::string_view kBlendResolveName = "blend resolve";
 constexpr std::string_view kBlendOverUnlitName = "blend over unlit";
 
@@ -148,8 +148,10 @@ gpu::Spirv fragmentShader(GeometryPass pass, const VariantKey& key) {
     switch (pass) {
     case GeometryPass::kDepth:
         return extended ? depth_masked_extended_frag() : depth_masked_frag();
-    case GeometryPass::kOverdraw: // of masked surfaces
+    case GeometryPass::kOverdraw: // of surfaces with holes, as the next
         return extended ? overdraw_masked_extended_frag() : overdraw_masked_frag();
+    case GeometryPass::kInstances:
+        return extended ? instance_masked_extended_frag() : instance_masked_frag();
     case GeometryPass::kGbuffer:
     case GeometryPass::kGbufferAfterDepth:
         if (extraFormat(key.output_flags) != vk::Format::eUndefined) {
@@ -168,6 +170,8 @@ gpu::Spirv depthOnlyShader(GeometryPass pass) {
     switch (pass) {
     case GeometryPass::kOverdraw:
         return shaders::overdraw_frag();
+    case GeometryPass::kInstances:
+        return shaders::instance_frag();
     case GeometryPass::kPeelSelect:
         return shaders::peel_select_frag();
     case GeometryPass::kPeelCount:
@@ -248,7 +252,7 @@ Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, V
       geometry_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *material_layout_})),
       screen_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *screen_set_layout_})),
       blend_set_layout_(render::blendSetLayout(device)),
-      peel_layout_(gpu::makePipelineLayout(device,
+      told_layout_(gpu::makePipelineLayout(device,
                                            {*frame_layout_, *material_layout_, *blend_set_layout_},
                                            sizeof(io::PeelDraw),
                                            Stage::eFragment)),
@@ -260,12 +264,11 @@ Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, V
       geometry_(timeline, maker, kKeptGeometry) {}
 
 vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& key) const {
-    const bool masked = (key.material_flags & io::kMaterialMask) != 0;
     const bool extended = (key.material_flags & io::kMaterialExtended) != 0;
-    const bool surface = !depthOnly(pass) || masked;
+    const bool surface = !depthOnly(pass) || hasHoles(key.material_flags);
     gpu::GraphicsPipelineInfo info;
     info.constants = fragmentConstants(key, device_.traits());
-    info.layout = peels(pass) ? *peel_layout_ : *geometry_layout_;
+    info.layout = tellsDraws(pass) ? *told_layout_ : *geometry_layout_;
     info.depth_format = kDepthFormat;
     const bool textured = extended || fetchesCoordinates(key.material_flags);
     describeVertices(info, surface, textured, surface && extended);

@@ -29,6 +29,7 @@ enum class GeometryPass : uint8_t {
     kPeelShade,         // forward, that layer under those before
     kPeelCount,         // pixels that have yet another
     kOverdraw,          // counts fragments, writing depth
+    kInstances,         // whose the nearest fragment is, writing depth
 };
 
 // Peeling passes tell triangles apart.
@@ -37,10 +38,21 @@ enum class GeometryPass : uint8_t {
            pass == GeometryPass::kPeelCount;
 }
 
-// Passes that no material has a say in, but a masked one.
+// Passes that no material has a say in, but one with holes.
 [[nodiscard]] constexpr bool depthOnly(GeometryPass pass) {
     return pass == GeometryPass::kDepth || pass == GeometryPass::kOverdraw ||
-           pass == GeometryPass::kPeelSelect || pass == GeometryPass::kPeelCount;
+           pass == GeometryPass::kInstances || pass == GeometryPass::kPeelSelect ||
+           pass == GeometryPass::kPeelCount;
+}
+
+// Passes that draw one by one, with push constants.
+[[nodiscard]] constexpr bool tellsDraws(GeometryPass pass) {
+    return peels(pass) || pass == GeometryPass::kInstances;
+}
+
+// Fragments of such a material may show nothing.
+[[nodiscard]] constexpr bool hasHoles(MaterialFlags material_flags) {
+    return (material_flags & (io::kMaterialMask | io::kMaterialBlend)) != 0;
 }
 
 // Which specialisation a pipeline has (shaders/interface/constants.h).
@@ -127,8 +139,8 @@ class Pipelines {
     // Frame, screen, and what the resolve reads.
     [[nodiscard]] vk::PipelineLayout blendOverUnlitLayout() const { return *over_unlit_layout_; }
     [[nodiscard]] vk::PipelineLayout geometryPipelineLayout() const { return *geometry_layout_; }
-    // As that, a blend set and the push constants of io::PeelDraw.
-    [[nodiscard]] vk::PipelineLayout peelPipelineLayout() const { return *peel_layout_; }
+    // As that, a blend set of passes that peel, and push constants of passes that tell draws.
+    [[nodiscard]] vk::PipelineLayout toldPipelineLayout() const { return *told_layout_; }
     [[nodiscard]] vk::PipelineLayout screenPipelineLayout() const { return *screen_layout_; }
 
     [[nodiscard]] static vk::Format gbufferFormat(uint32_t output_flags) {
@@ -149,7 +161,7 @@ class Pipelines {
     vk::raii::PipelineLayout geometry_layout_;
     vk::raii::PipelineLayout screen_layout_;
     vk::raii::DescriptorSetLayout blend_set_layout_;
-    vk::raii::PipelineLayout peel_layout_;
+    vk::raii::PipelineLayout told_layout_;
     vk::raii::PipelineLayout resolve_layout_;
     vk::raii::PipelineLayout over_unlit_layout_;
     VariantCache<settings::Transparency> blend_resolve_;

@@ -51,7 +51,7 @@ vk::ClearValue clearColor(float rgb, float alpha) {
 
 void bindLayer(const FrameContext& frame, vk::DescriptorSet set) {
     frame.slot.cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
-                                      frame.scene.shared.pipelines.peelPipelineLayout(), 2, set,
+                                      frame.scene.shared.pipelines.toldPipelineLayout(), 2, set,
                                       {});
 }
 

@@ -101,7 +101,7 @@ std::vector<Use> usesOfDebugView(const FramePlan& frame, const StepPlan& plan) {
                         use::stored(plan.packs.value_or(Resource::kPixels))};
     if (frame.solid == Solid::kShownGbuffer) {
         uses.push_back(use::sampled(Resource::kGbuffer));
-    } else if (frame.solid == Solid::kOverdraw) {
+    } else if (frame.solid == Solid::kFragments) {
         uses.push_back(use::loaded(Resource::kRadiance));
     }
     return uses;

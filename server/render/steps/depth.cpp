@@ -41,7 +41,7 @@ class DepthPrepass final : public CountingStep {
 std::optional<StepPlan> planOfDepth(const PlanInputs& inputs) {
     const FramePlan& frame = inputs.plan;
     const bool alone = frame.solid == Solid::kShownDepth;
-    const bool before = frame.solid != Solid::kOverdraw && inputs.facts.prepass_pays &&
+    const bool before = frame.solid != Solid::kFragments && inputs.facts.prepass_pays &&
                         inputs.settings.renderer != settings::Renderer::kNaive;
     return !frame.byIds() && (alone || before)
                ? std::optional(StepPlan{.way = countingWay(frame, false)})
@@ -49,7 +49,7 @@ std::optional<StepPlan> planOfDepth(const PlanInputs& inputs) {
 }
 
 std::string wordsOfDepth(const PlanInputs& inputs, const StepPlan* plan) {
-    if (inputs.plan.byIds() || inputs.plan.solid == Solid::kOverdraw) {
+    if (inputs.plan.byIds() || inputs.plan.solid == Solid::kFragments) {
         return {};
     }
     if (plan != nullptr) {

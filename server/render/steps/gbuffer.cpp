@@ -89,7 +89,7 @@ std::vector<Use> usesOfGbuffer(const FramePlan& frame, const StepPlan& /*plan*/)
 }
 
 std::string wordsOfGbuffer(const PlanInputs& inputs, const StepPlan* plan) {
-    if (inputs.plan.solid == Solid::kOverdraw) {
+    if (inputs.plan.solid == Solid::kFragments) {
         return {};
     }
     if (plan == nullptr) {

@@ -17,6 +17,7 @@ extern const StepRow kEnvironmentStep;
 extern const StepRow kExposureStep;
 extern const StepRow kFogStep;
 extern const StepRow kForwardStep;
+extern const StepRow kFragmentsStep;
 extern const StepRow kFxaaStep;
 extern const StepRow kGbufferStep;
 extern const StepRow kIdsStep;
@@ -26,7 +27,6 @@ extern const StepRow kLightingStep;
 extern const StepRow kLinearDepthStep;
 extern const StepRow kListsStep;
 extern const StepRow kOutlineStep;
-extern const StepRow kOverdrawStep;
 extern const StepRow kPairsStep;
 extern const StepRow kPlanesStep;
 extern const StepRow kPoseStep;
@@ -53,7 +53,7 @@ inline constexpr std::array kOrder = {
     &kToonStep,
     &kOutlineStep,
     // What is shown in their place or counted of them.
-    &kOverdrawStep,
+    &kFragmentsStep,
     &kDebugViewStep,
     &kPairsStep,
     // Behind them, around them, in front of them.

@@ -20,13 +20,13 @@ namespace froxel::render {
 
 namespace {
 
-constexpr uint32_t kBindings = 2; // storage buffers: pixels, planes
+constexpr uint32_t kPlanesBindings = 2; // storage buffers: pixels, planes
 
 // Shared by every view.
 class PlanesPipelines {
   public:
     explicit PlanesPipelines(DeviceResources& shared)
-        : device_(shared.device), set_layout_(storageLayout(device_, kBindings)),
+        : device_(shared.device), set_layout_(storageLayout(device_, kPlanesBindings)),
           layout_(gpu::makePipelineLayout(device_, {*set_layout_}, sizeof(io::PlanesPicture))),
           made_(shared.timeline, shared.variants, Pipelines::kKeptScreen) {}
 
@@ -63,7 +63,7 @@ struct PlanesTargets final : StepTargets {
 // One a frame slot.
 struct PlanesSet : StorageSet {
     PlanesSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
-        : StorageSet(device, layout, kBindings) {}
+        : StorageSet(device, layout, kPlanesBindings) {}
 };
 
 class Planes final : public Step {
@@ -109,7 +109,7 @@ void Planes::prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) {
         targets_ = std::make_shared<PlanesTargets>(device, sizes_.bytes());
     }
     slot.step_targets.hold(targets_);
-    const std::array<vk::DescriptorBufferInfo, kBindings> buffers = {
+    const std::array<vk::DescriptorBufferInfo, kPlanesBindings> buffers = {
         {{*packedPixels(slot, Resource::kPixels).handle, 0, VK_WHOLE_SIZE},
          {*targets_->planes.handle, 0, VK_WHOLE_SIZE}}};
     slot.stored.findOrMake<PlanesSet>(device, scene_.shared.stored<PlanesPipelines>().setLayout())

@@ -1,6 +1,7 @@
 #include "render/surfaces/geometry_draws.h"
 
 #include "interface/constants.h"
+#include "interface/debug_io.h"
 #include "interface/peel_io.h"
 #include "render/frame/posed_targets.h"
 
@@ -36,10 +37,9 @@ VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup
     const auto& plan = frame.plan;
     switch (pass) {
     case GeometryPass::kDepth:
-    case GeometryPass::kOverdraw: {
-        const bool masked = (group.material_flags & io::kMaterialMask) != 0;
-        return {masked ? group.material_flags : 0U, 0, 0};
-    }
+    case GeometryPass::kOverdraw:
+    case GeometryPass::kInstances:
+        return {hasHoles(group.material_flags) ? group.material_flags : 0U, 0, 0};
     case GeometryPass::kPeelSelect:
     case GeometryPass::kPeelCount:
         return {};
@@ -65,20 +65,27 @@ vk::DeviceSize commandOffset(const FrameContext& frame, uint32_t command) {
     return frame.slot.offsets.commands + vk::DeviceSize{command} * kStride;
 }
 
-// One by one, so that each tells its triangles' places; returns the next draw's.
-uint32_t drawCounted(const FrameContext& frame,
-                     const DrawGroup& group,
-                     io::PeelDraw draw,
-                     vk::PipelineLayout layout) {
+// One by one, so that each tells its instance, or its triangles' places, which `peel` counts.
+void drawTold(const FrameContext& frame,
+              GeometryPass pass,
+              const DrawGroup& group,
+              vk::PipelineLayout layout,
+              io::PeelDraw& peel) {
+    constexpr auto kStage = vk::ShaderStageFlagBits::eFragment;
     const auto& cmd = frame.slot.cmd;
     for (uint32_t i = 0; i < group.command_count; ++i) {
         const uint32_t command = group.first_command + i;
-        cmd.pushConstants<io::PeelDraw>(layout, vk::ShaderStageFlagBits::eFragment, 0, draw);
+        const vk::DrawIndexedIndirectCommand& draw = frame.draws.commands[command];
+        if (peels(pass)) {
+            cmd.pushConstants<io::PeelDraw>(layout, kStage, 0, peel);
+            peel.first_triangle += draw.indexCount / 3;
+        } else {
+            cmd.pushConstants<io::InstanceDraw>(layout, kStage, 0,
+                                                io::InstanceDraw{draw.firstInstance + 1});
+        }
         cmd.drawIndexedIndirect(frame.slot.upload.buffer(), commandOffset(frame, command), 1,
                                 kStride);
-        draw.first_triangle += frame.draws.commands[command].indexCount / 3;
     }
-    return draw.first_triangle;
 }
 
 } // namespace
@@ -107,7 +114,7 @@ void drawGroups(const FrameContext& frame,
     const auto& cmd = frame.slot.cmd;
     auto& pipelines = frame.scene.shared.pipelines;
     const auto layout =
-        peels(pass) ? pipelines.peelPipelineLayout() : pipelines.geometryPipelineLayout();
+        tellsDraws(pass) ? pipelines.toldPipelineLayout() : pipelines.geometryPipelineLayout();
     bindGeometry(frame, layout, *frame.slot.frame_set,
                  frame.draws.indices.empty() ? *frame.scene.index_buffer.handle
                                              : frame.slot.upload.buffer(),
@@ -115,7 +122,8 @@ void drawGroups(const FrameContext& frame,
     vk::Pipeline bound;
     io::PeelDraw peel{.first_triangle = 0, .layer = layer};
     for (const DrawGroup& group : groups) {
-        const auto pipeline = pipelines.geometry(pass, variant(frame, pass, group));
+        const VariantKey key = variant(frame, pass, group);
+        const auto pipeline = pipelines.geometry(pass, key);
         if (pipeline != bound) {
             cmd.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
             bound = pipeline;
@@ -124,12 +132,12 @@ void drawGroups(const FrameContext& frame,
         cmd.setCullMode(both_sides ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
         cmd.setFrontFace(group.mirrored ? vk::FrontFace::eClockwise
                                         : vk::FrontFace::eCounterClockwise);
-        if (!depthOnly(pass) || (group.material_flags & io::kMaterialMask) != 0) {
+        if (!depthOnly(pass) || hasHoles(key.material_flags)) {
             cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 1,
                                    frame.scene.materialSet(group.material), {});
         }
-        if (peels(pass)) {
-            peel.first_triangle = drawCounted(frame, group, peel, layout);
+        if (tellsDraws(pass)) {
+            drawTold(frame, pass, group, layout, peel);
         } else {
             cmd.drawIndexedIndirect(frame.slot.upload.buffer(),
                                     commandOffset(frame, group.first_command), group.command_count,

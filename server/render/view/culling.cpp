@@ -20,8 +20,8 @@ bool choosesIds(const FrameInputs& inputs,
                 Detail detail) {
     using settings::LightingStage;
     const auto& traits = scene.shared.device.traits();
-    if (inputs.settings.debug.view == settings::DebugView::kOverdraw) {
-        return false; // what a rasteriser draws over is what it shows
+    if (settings::showsFragments(inputs.settings.debug.view)) {
+        return false; // the rasteriser's fragments
     }
     const bool pays =
         inputs.geometry == GeometryPath::kAuto && !traits.is_cpu && traits.descriptor_indexing;

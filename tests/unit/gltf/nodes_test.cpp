@@ -164,6 +164,7 @@ TEST(Instancing, Attributes_PlaceTheMeshManyTimes) {
     expectNear(apply(scene.instances[0], {1, 0, 0}), {2, 0, 9});
     expectNear(apply(scene.instances[1], {1, 0, 0}), {-2, 5, 9});
     expectNear(apply(scene.instances[1], {0, 1, 1}), {0, 3, 11}); // a half turn about z
+    EXPECT_TRUE(scene.instances[0].node == 0 && scene.instances[1].node == 0);
 }
 
 TEST(Instancing, UnequalCounts_AreRefused) {

@@ -591,11 +591,13 @@ TEST(FramePlan, DebugViews_InThePicturesPlace_DrawSurfacesAndNoLight) {
     EXPECT_TRUE(has(normal, kGbufferStep));
     EXPECT_FALSE(has(normal, kLightingStep) || normal.lists);
     settings.renderer = Renderer::kToonCompute;
-    settings.debug.view = settings::DebugView::kOverdraw;
-    const auto overdraw = planOf(settings, facts);
-    EXPECT_TRUE(storesRadiance(overdraw));
-    EXPECT_FALSE(has(overdraw, kGbufferStep) || has(overdraw, kDepthStep) ||
-                 has(overdraw, kToonStep));
+    for (const auto debug : {settings::DebugView::kOverdraw, settings::DebugView::kInstances}) {
+        settings.debug.view = debug;
+        const auto fragments = planOf(settings, facts);
+        EXPECT_TRUE(storesRadiance(fragments) && has(fragments, kFragmentsStep));
+        EXPECT_FALSE(has(fragments, kGbufferStep) || has(fragments, kDepthStep) ||
+                     has(fragments, kBlendedStep) || has(fragments, kToonStep));
+    }
     settings.renderer = Renderer::kNaive;
     settings.debug.view = settings::DebugView::kEvaluatedLights;
     EXPECT_FALSE(planOf(settings, facts).lists); // it loops over all

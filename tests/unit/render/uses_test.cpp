@@ -169,7 +169,11 @@ const std::vector<ByHand> kByHand = {
      {kCompute, kStored, kCompute, Access::eShaderStorageRead | kStored}},
     // what a debug view in the picture's place looks at
     {{kDeferred, shows(DebugView::kOverdraw)},
-     &kOverdrawStep,
+     &kFragmentsStep,
+     &kDebugViewStep,
+     {kColor, kDrawn, kCompute, Access::eShaderStorageRead}},
+    {{kForward, shows(DebugView::kInstances)},
+     &kFragmentsStep,
      &kDebugViewStep,
      {kColor, kDrawn, kCompute, Access::eShaderStorageRead}},
     {{kForward, shows(DebugView::kDepth)},

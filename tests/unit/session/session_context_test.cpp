@@ -3,8 +3,32 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace froxel::session {
 namespace {
+
+TEST(Summarize, Nodes_AreThoseThatPlaceInstances) {
+    scene::Scene scene;
+    scene.meshes.resize(1);
+    const auto place = [&scene](const char* name, uint32_t node) {
+        scene.instances.push_back({0, glm::dmat4(1), name, node});
+    };
+    place("crowd", 7);
+    place("crowd", 7);
+    place("crowd", 8); // another of the same name
+    place("built in", scene::kNone);
+    place("built in", scene::kNone);
+    const SceneSummary summary = summarize(scene);
+    ASSERT_EQ(summary.nodes.size(), 4U);
+    const std::array<uint32_t, 4> firsts = {0, 2, 3, 4};
+    const std::array<uint32_t, 4> nodes = {7, 8, scene::kNone, scene::kNone};
+    for (size_t i = 0; i < firsts.size(); ++i) {
+        EXPECT_EQ(summary.nodes[i].first_instance, firsts[i]);
+        EXPECT_EQ(summary.nodes[i].node, nodes[i]);
+    }
+    EXPECT_EQ(summary.nodes[1].name, "crowd");
+}
 
 TEST(Summarize, Instances_AreCountedEach) {
     scene::Scene scene;

@@ -1,4 +1,5 @@
 #include "core/pixel_view.h"
+#include "interface/debug_io.h"
 #include "png/reader.h"
 #include "png/writer.h"
 #include "still/picture_facts.h"
@@ -7,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <utility>
@@ -117,11 +120,24 @@ TEST(Sheet, TooLargeOrBroken_IsAnError) {
     EXPECT_FALSE(makeSheet(other_size, asPng()));
 }
 
-TEST(PictureFacts, CoveredIsWhatIsNotTheEmptyColourOfDebugViews) {
-    const Pixel empty{0x20, 0x20, 0x20, 255};
-    const Pixel near{0x20, 0x20, 0x21, 255};
-    EXPECT_DOUBLE_EQ(coveredShare(pngOf(2, {empty, near, empty, empty})).value(), 0.25);
-    EXPECT_FALSE(coveredShare(std::make_shared<const std::vector<std::byte>>(3)));
+// What shaders/debug_view.comp stores.
+Pixel colorOfInstance(uint32_t instance) {
+    const uint32_t product = (instance + 1) * io::kInstanceColorFactor & io::kInstanceColorMask;
+    return std::bit_cast<Pixel>(io::kDebugEmpty ^ product);
+}
+
+TEST(PictureFacts, CoveredPixels_AreCountedByTheInstanceOfTheirColour) {
+    const Pixel empty = std::bit_cast<Pixel>(io::kDebugEmpty);
+    constexpr uint32_t kLast = (1U << 24U) - 2;
+    const Pixel first = colorOfInstance(0);
+    const Pixel last = colorOfInstance(kLast);
+    const auto covered =
+        coveredPixels(pngOf(2, {empty, last, first, last, empty, colorOfInstance(1)}));
+    ASSERT_TRUE(covered) << covered.error().message;
+    EXPECT_EQ(covered->total, 6U);
+    EXPECT_EQ(covered->of_instance, (std::map<uint32_t, uint64_t>{{0, 1}, {1, 1}, {kLast, 2}}));
+    EXPECT_TRUE(coveredPixels(pngOf(1, {empty}))->of_instance.empty());
+    EXPECT_FALSE(coveredPixels(std::make_shared<const std::vector<std::byte>>(3)));
 }
 
 TEST(PictureFacts, SharesOfNearlyBlackAndWhite) {
