@@ -52,14 +52,48 @@ Result<void> checkParts(const v1::FrameHeader& header, size_t payload_bytes) {
     return {};
 }
 
+std::string prefixed(Kind kind, const google::protobuf::Message& header) {
+    const size_t length = header.ByteSizeLong();
+    FROXEL_ASSERT(length > 0 && length <= kMaxFrameHeaderBytes, "header out of its bounds");
+    std::string bytes = prefix(kind, length);
+    header.AppendToString(&bytes);
+    return bytes;
+}
+
+// Fills `header` and returns what follows it. `name`: of such a message, for errors.
+Result<ByteSpan> decodePrefixed(ByteSpan message,
+                                Kind expected,
+                                const std::string& name,
+                                google::protobuf::Message& header) {
+    const auto kind = binaryKind(message);
+    if (!kind) {
+        return kind.error();
+    }
+    if (*kind != expected) {
+        return invalid("not a " + name + " but another kind of server message");
+    }
+    const size_t length =
+        std::to_integer<size_t>(message[2]) | (std::to_integer<size_t>(message[3]) << 8U);
+    const ByteSpan rest = message.subspan(kPrefixBytes);
+    if (length == 0 || length > kMaxFrameHeaderBytes || length > rest.size()) {
+        return invalid(name + " header of " + std::to_string(length) + " bytes; " +
+                       std::to_string(rest.size()) + " are there and 1 to " +
+                       std::to_string(kMaxFrameHeaderBytes) + " are allowed");
+    }
+    if (!parse(rest.first(length), header)) {
+        return invalid(name + " header is not a " + header.GetDescriptor()->name());
+    }
+    return rest.subspan(length);
+}
+
 } // namespace
 
 std::string encodeFramePrefix(const v1::FrameHeader& header) {
-    const size_t length = header.ByteSizeLong();
-    FROXEL_ASSERT(length > 0 && length <= kMaxFrameHeaderBytes, "frame header out of its bounds");
-    std::string bytes = prefix(Kind::kFrame, length);
-    header.AppendToString(&bytes);
-    return bytes;
+    return prefixed(Kind::kFrame, header);
+}
+
+std::string encodeDepthPrefix(const v1::DepthMeshHeader& header) {
+    return prefixed(Kind::kDepth, header);
 }
 
 Result<Kind> binaryKind(ByteSpan message) {
@@ -72,38 +106,26 @@ Result<Kind> binaryKind(ByteSpan message) {
         return invalid("server message starts with byte " + std::to_string(magic) + ", not 247");
     }
     const auto kind = std::to_integer<unsigned>(message[1]);
-    if (kind != static_cast<unsigned>(Kind::kFrame) &&
-        kind != static_cast<unsigned>(Kind::kServerMessage)) {
+    if (kind < static_cast<unsigned>(Kind::kFrame) || kind > static_cast<unsigned>(Kind::kDepth)) {
         return invalid("server message of kind " + std::to_string(kind) +
-                       "; known are 1 (frame) and 2 (message)");
+                       "; known are 1 (frame), 2 (message) and 3 (depth)");
     }
     return static_cast<Kind>(kind);
 }
 
 Result<ByteSpan> decodeFrame(ByteSpan message, v1::FrameHeader& header) {
-    const auto kind = binaryKind(message);
-    if (!kind) {
-        return kind.error();
+    auto payload = decodePrefixed(message, Kind::kFrame, "frame", header);
+    if (!payload) {
+        return payload;
     }
-    if (*kind != Kind::kFrame) {
-        return invalid("not a frame but a server message");
-    }
-    const size_t length =
-        std::to_integer<size_t>(message[2]) | (std::to_integer<size_t>(message[3]) << 8U);
-    const ByteSpan rest = message.subspan(kPrefixBytes);
-    if (length == 0 || length > kMaxFrameHeaderBytes || length > rest.size()) {
-        return invalid("frame header of " + std::to_string(length) + " bytes; " +
-                       std::to_string(rest.size()) + " are there and 1 to " +
-                       std::to_string(kMaxFrameHeaderBytes) + " are allowed");
-    }
-    if (!parse(rest.first(length), header)) {
-        return invalid("frame header is not a FrameHeader");
-    }
-    const ByteSpan payload = rest.subspan(length);
-    if (const auto parts = checkParts(header, payload.size()); !parts) {
+    if (const auto parts = checkParts(header, payload->size()); !parts) {
         return parts.error();
     }
     return payload;
+}
+
+Result<ByteSpan> decodeDepth(ByteSpan message, v1::DepthMeshHeader& header) {
+    return decodePrefixed(message, Kind::kDepth, "depth", header);
 }
 
 std::string encodeServerMessage(const v1::ServerMessage& message, WireFormat format) {

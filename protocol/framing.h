@@ -1,8 +1,9 @@
 // How messages lie in WebSocket messages. Every binary message from the server starts with four
-// bytes: magic, kind, and the FrameHeader's length as u16 little endian.
+// bytes: magic, kind, and the length of a frame's or a mesh's header as u16 little endian.
 //
 //   frame           0xF7 0x01 length  FrameHeader[length] encoded bytes...
 //   server message  0xF7 0x02 0x0000  ServerMessage...
+//   depth           0xF7 0x03 length  DepthMeshHeader[length] coded mesh... (depth_mesh.h)
 //
 // A client's binary message is a bare ClientMessage; text either way is canonical JSON.
 // Pure functions; any thread.
@@ -18,6 +19,7 @@
 
 namespace froxel::v1 {
 class ClientMessage;
+class DepthMeshHeader;
 class FrameHeader;
 class ServerMessage;
 } // namespace froxel::v1
@@ -27,7 +29,7 @@ namespace froxel::protocol {
 inline constexpr uint8_t kMagic = 0xF7;
 inline constexpr size_t kPrefixBytes = 4;
 
-enum class Kind : uint8_t { kFrame = 1, kServerMessage = 2 };
+enum class Kind : uint8_t { kFrame = 1, kServerMessage = 2, kDepth = 3 };
 
 enum class WireFormat : uint8_t { kBinary, kText };
 
@@ -45,7 +47,11 @@ using ByteSpan = std::span<const std::byte>;
 // for a wrong magic, kind or length, or parts that are not contiguous from 0 to the end.
 [[nodiscard]] Result<ByteSpan> decodeFrame(ByteSpan message, v1::FrameHeader& header);
 
-// Whether a binary message from the server is a frame or a ServerMessage.
+// The same of a depth message, whose bytes decodeDepthMesh() reads.
+[[nodiscard]] std::string encodeDepthPrefix(const v1::DepthMeshHeader& header);
+[[nodiscard]] Result<ByteSpan> decodeDepth(ByteSpan message, v1::DepthMeshHeader& header);
+
+// What a binary message from the server is.
 [[nodiscard]] Result<Kind> binaryKind(ByteSpan message);
 
 // A complete WebSocket payload: with prefix when binary, JSON when text.

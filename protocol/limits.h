@@ -13,7 +13,8 @@ namespace froxel::protocol {
 // The WebSocket subprotocol that both sides name in the upgrade.
 inline constexpr std::string_view kSubprotocol = "froxel.v1";
 inline constexpr uint32_t kMajor = 1;
-inline constexpr uint32_t kMinor = 3; // since 2: rooms, resuming, Pause; 3: SelectScene
+// Since 2: rooms, resuming, Pause; 3: SelectScene; 4: RequestDepth.
+inline constexpr uint32_t kMinor = 4;
 
 inline constexpr size_t kMaxHelloBytes = 4 * 1024;         // first message of a connection
 inline constexpr size_t kMaxMessageBytes = 64 * 1024;      // any later message from a client

@@ -13,15 +13,18 @@ namespace froxel {
 enum class Output : uint8_t {
     kRadiance, // before exposure and tone map: linear RGBA
     kDepth,    // of solid surfaces, metres along the view axis; infinity: there is none
+    // Of the vertices of core/depth_mesh.h, row by row: 1/m along the view axis; 0: there is none.
+    kDepthMesh,
 };
 
 struct OutputRow {
     std::string_view name;
     uint32_t floats;      // of a sample
-    uint32_t file_floats; // that a file has of a pixel
+    uint32_t file_floats; // that a file has of a pixel; 0: none has it
 };
 
-inline constexpr std::array kOutputRows = {OutputRow{"radiance", 4, 3}, OutputRow{"depth", 1, 1}};
+inline constexpr std::array kOutputRows = {OutputRow{"radiance", 4, 3}, OutputRow{"depth", 1, 1},
+                                           OutputRow{"depth mesh", 1, 0}};
 inline constexpr size_t kOutputCount = kOutputRows.size();
 
 // A set of them.

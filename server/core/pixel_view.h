@@ -28,7 +28,7 @@ struct PixelView {
     uint32_t height_px = 0;
     size_t stride_bytes = 0;
     // By Output, where it was asked for, else null: rows without padding, so many samples across a
-    // pixel and down it.
+    // pixel and down it, but for the mesh, which has its own size.
     std::array<const float*, kOutputCount> outputs{};
     uint32_t output_samples = 1;
     // In place of `data`, made on the device: planes, or the picture as this file.

@@ -133,6 +133,11 @@ settings::CodecSet Audience::decodable() const {
     return all;
 }
 
+bool Audience::wantsDepth() const {
+    return std::any_of(members_.begin(), members_.end(),
+                       [](const auto& entry) { return entry.second.wants_depth; });
+}
+
 uint64_t Audience::room() const {
     uint64_t room = 0;
     for (const auto& [id, member] : members_) {

@@ -27,6 +27,7 @@ class Audience {
         settings::CodecSet codecs = settings::CodecSet().set(); // all while away
         std::optional<session::Delivery> delivery = {};         // none: nothing acknowledged yet
         bool paused = false;
+        bool wants_depth = false;
         uint64_t told_frame = 0; // the newest picture told to this connection
         uint64_t acked_frame = 0;
         TimePoint watched_at{}; // its last sign of watching
@@ -71,6 +72,8 @@ class Audience {
 
     // What all who are here decode.
     [[nodiscard]] settings::CodecSet decodable() const;
+    // Whether any asked for it.
+    [[nodiscard]] bool wantsDepth() const;
     // Pictures that the viewer with the most room takes.
     [[nodiscard]] uint64_t room() const;
     // Of the best link that is not paused; null: none was told of.

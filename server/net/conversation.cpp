@@ -121,6 +121,8 @@ void Conversation::onCommand(const CommandMessage& message, TimePoint now) {
             return rejectRate(message.stamp, kPausesPerSecond, "pauses begun or ended", now);
         }
         setPaused(pause->paused, now);
+    } else if (std::holds_alternative<session::RequestDepth>(message.body)) {
+        requestDepth(message, now);
     } else if (std::holds_alternative<session::RequestKeyFrame>(message.body)) {
         requestKeyFrame(now);
     } else if (std::holds_alternative<session::SelectScene>(message.body)) {
@@ -192,6 +194,23 @@ void Conversation::setPaused(bool paused, TimePoint now) {
 
 void Conversation::requestKeyFrame(TimePoint now) {
     key_at_ = seat_->session->requestKeyFrame(seat_->place, now);
+}
+
+void Conversation::requestDepth(const CommandMessage& message, TimePoint now) {
+    const bool wanted = std::get<session::RequestDepth>(message.body).wanted;
+    if (wanted == wants_depth_) {
+        return;
+    }
+    if (wanted && !seat_->session->offersDepth()) {
+        return reject(
+            {RejectCode::kUnsupported, message.stamp.seq, "wanted", "this server sends no depth"},
+            now);
+    }
+    if (!depth_requests_.take(now)) {
+        return rejectRate(message.stamp, kDepthRequestsPerSecond, "requests for depth", now);
+    }
+    wants_depth_ = wanted;
+    seat_->session->setWantsDepth(seat_->place, wanted, now);
 }
 
 void Conversation::onAck(const session::CommandStamp& stamp,
@@ -387,6 +406,9 @@ std::optional<Outgoing> Conversation::nextMessage(TimePoint now) {
         if (auto details = detailsMessage()) {
             return details;
         }
+        if (auto depth = depthMessage()) {
+            return depth;
+        }
         return frameMessage(now);
     }
     return {};
@@ -491,6 +513,22 @@ std::optional<Outgoing> Conversation::detailsMessage() {
     return inReply(session::makeFrameDetails(*details));
 }
 
+// What the next picture shows, as a mesh, where the client has not got it yet.
+std::optional<Outgoing> Conversation::depthMessage() {
+    const session::ReadyFrame& frame = outbox_.frame();
+    const uint64_t number = frame.record.depth_mesh;
+    if (!wants_depth_ || !frame.depth || number == told_depth_) {
+        return {};
+    }
+    told_depth_ = number;
+    Outgoing message;
+    message.head = protocol::encodeDepthPrefix(session::makeDepthMeshHeader(*frame.depth, number));
+    // It lives as long as the mesh.
+    message.body = SharedBytes(frame.depth, &frame.depth->bytes);
+    depth_bytes_ += message.size();
+    return message;
+}
+
 // A picture echoes the newest of this connection's own commands that it shows: the one behind it,
 // or, where that was another viewer's, the last one before control went.
 void Conversation::signRecord(session::FrameRecord& record) {
@@ -511,11 +549,14 @@ Outgoing Conversation::frameMessage(TimePoint now) {
     session::ReadyFrame frame = outbox_.takeFrame();
     frame.record.send_wait_us = Microseconds(now - frame.ready_at).count();
     frame.record.dropped_count = outbox_.droppedCount();
+    if (!wants_depth_) {
+        frame.record.depth_mesh = 0;
+    }
     signRecord(frame.record);
     const session::Delivered& with = frame.record.delivered;
-    window_.onSent(
-        frame.record.frame_id, now,
-        {frame.bytes->size(), with.rung, with.refinement != session::Refinement::kInteractive});
+    window_.onSent(frame.record.frame_id, now,
+                   {frame.bytes->size() + std::exchange(depth_bytes_, 0), with.rung,
+                    with.refinement != session::Refinement::kInteractive});
     frame.record.queue_delay_us = Microseconds(rate_.queueDelay()).count();
     frame.record.link_bits_per_s = rate_.linkRate().value_or(0);
     grantCredits();

@@ -38,6 +38,9 @@ class Conversation {
     // A pause that begins or ends: each end has a picture drawn, and video go on with a key frame.
     static constexpr double kPausesAtOnce = 16;
     static constexpr double kPausesPerSecond = 5;
+    // Requests for depth, and their ends: a picture is drawn for each request.
+    static constexpr double kDepthRequestsAtOnce = 16;
+    static constexpr double kDepthRequestsPerSecond = 5;
     // Messages to a client of more bytes are made away from the network's threads.
     static constexpr size_t kLongBytes = size_t{8} * 1024;
 
@@ -102,6 +105,7 @@ class Conversation {
     void saySceneNews();
     void setPaused(bool paused, TimePoint now);
     void requestKeyFrame(TimePoint now);
+    void requestDepth(const session::CommandMessage& message, TimePoint now);
     void countDrops(uint32_t before);
     void onFrame(session::ReadyFrame frame);
     void onAck(const session::CommandStamp& stamp, const session::Ack& ack, TimePoint now);
@@ -121,6 +125,7 @@ class Conversation {
     [[nodiscard]] Outgoing stateMessage();
     void mendVideo(TimePoint now);
     [[nodiscard]] std::optional<Outgoing> detailsMessage();
+    [[nodiscard]] std::optional<Outgoing> depthMessage();
     void signRecord(session::FrameRecord& record);
     [[nodiscard]] Outgoing frameMessage(TimePoint now);
 
@@ -141,6 +146,7 @@ class Conversation {
     Allowance scenes_{kScenesAtOnce, kScenesPerSecond};
     Allowance picks_{kPicksAtOnce, kPicksPerSecond};
     Allowance pauses_{kPausesAtOnce, kPausesPerSecond};
+    Allowance depth_requests_{kDepthRequestsAtOnce, kDepthRequestsPerSecond};
     ServiceStatus service_;
     std::vector<session::CommandMessage> early_;
     session::Hello hello_;                // its secrets are forgotten when they have served
@@ -154,6 +160,9 @@ class Conversation {
     uint64_t delivered_ = 0; // pictures that came from the session
     uint64_t granted_ = 0;
     bool paused_ = false;
+    bool wants_depth_ = false;
+    uint64_t told_depth_ = 0; // number of the newest mesh sent
+    size_t depth_bytes_ = 0;  // sent since the last picture
     bool video_lost_ = false; // a frame of video was dropped, and no key frame has come since
     std::optional<TimePoint> key_at_; // one is asked for then, since it was too early
     bool goodbye_ = false;

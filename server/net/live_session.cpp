@@ -63,6 +63,7 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
         mail.add(member.viewer, SceneNews{});
     }
     updateCodecs(now, mail);
+    updateDepth(now);
     updateGrant();
     updateDelivery();
     auto picture = plainSuffices() ? plain_ : picture_;
@@ -87,6 +88,7 @@ void LiveSession::detach(const Place& place, Mail& mail) {
     *member = {};
     room_.setAway(place.member, true);
     updateCodecs(Clock::now(), mail);
+    updateDepth(Clock::now());
     updateGrant();
     updateDelivery();
     audience_.tellRoom(mail);
@@ -99,6 +101,7 @@ bool LiveSession::removeMember(MemberId member, Mail& mail) {
     const bool last = audience_.empty();
     if (!last) {
         updateCodecs(Clock::now(), mail);
+        updateDepth(Clock::now());
         updateGrant();
         updateDelivery();
     } else if (!std::exchange(ended_, true)) {
@@ -327,6 +330,26 @@ void LiveSession::updateCodecs(TimePoint now, Mail& mail) {
     }
 }
 
+void LiveSession::setWantsDepth(const Place& place, bool wants, TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    if (Audience::Member* member = audience_.find(place)) {
+        member->wants_depth = wants;
+        updateDepth(now);
+    }
+}
+
+// As long as any asks for it.
+void LiveSession::updateDepth(TimePoint now) {
+    const bool sends = serving_.offers_depth && audience_.wantsDepth();
+    if (std::exchange(state_.sends_depth, sends) == sends) {
+        return;
+    }
+    if (sends) {
+        ++state_.version; // so that a picture with depth is drawn where nothing moves
+    }
+    serving_.port->update(id_, state_, now);
+}
+
 void LiveSession::keepDecodable() {
     if (!settings::contains(state_.decodable, state_.encoding.codec)) {
         state_.encoding.codec = settings::kPlainCodec;
@@ -377,6 +400,7 @@ v1::ServerMessage LiveSession::welcome(MemberId you,
                                        settings::PlacedLights& placed) const {
     const std::lock_guard lock(mutex_);
     placed = state_.settings.lights.placed;
+    place.offers_depth = serving_.offers_depth;
     if (room_.shared()) {
         place.room = &room_;
         place.member = you;

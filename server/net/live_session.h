@@ -86,6 +86,9 @@ class LiveSession final : public session::FrameSink,
     // lowers nobody's.
     void setDelivery(const Place& place, const session::Delivery& delivery);
     void setPaused(const Place& place, bool paused, TimePoint now);
+    // Whether this connection wants depth with its pictures.
+    void setWantsDepth(const Place& place, bool wants, TimePoint now);
+    [[nodiscard]] bool offersDepth() const { return serving_.offers_depth; }
     // The viewer acknowledged a picture: it watches.
     void noteAck(const Place& place, uint64_t frame_id, TimePoint now);
     // Until when its viewers count as watching, unless they give another sign of it: an hour hence,
@@ -127,6 +130,7 @@ class LiveSession final : public session::FrameSink,
     [[nodiscard]] bool plainSuffices() const;
     void updateGrant();
     void updateCodecs(TimePoint now, Mail& mail);
+    void updateDepth(TimePoint now);
     void keepDecodable();
     void updateDelivery();
     void takeBack(const session::SessionState& refused,

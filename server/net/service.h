@@ -25,6 +25,7 @@ struct Serving {
     std::shared_ptr<const Heartbeat> heartbeat{};
     Seconds step_limit{0};                // one step of it that takes longer never ends
     session::ScenePort* scenes = nullptr; // outlives every connection
+    bool offers_depth = true;             // with pictures, to clients that ask for it
 };
 
 // No session begins any more; those that are there go on until it is over.

@@ -132,6 +132,10 @@ struct Pause {
     bool paused = false;
 };
 
+struct RequestDepth {
+    bool wanted = false;
+};
+
 using Command = std::variant<Hello,
                              SetCamera,
                              SelectSceneCamera,
@@ -152,7 +156,8 @@ using Command = std::variant<Hello,
                              RequestControl,
                              ReleaseControl,
                              GiveControl,
-                             Pause>;
+                             Pause,
+                             RequestDepth>;
 
 // Where a command came from; frames echo the newest one that they show.
 struct CommandStamp {

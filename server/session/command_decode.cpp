@@ -281,6 +281,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return GiveControl{message.give_control().member_id()};
     case v1::ClientMessage::kPause:
         return Pause{message.pause().paused()};
+    case v1::ClientMessage::kRequestDepth:
+        return RequestDepth{message.request_depth().wanted()};
     case v1::ClientMessage::kRequestKeyFrame:
         return RequestKeyFrame{};
     default:

@@ -44,6 +44,7 @@ SessionState withScene(const SessionState& before,
     state.delivery = before.delivery;
     state.decodable = before.decodable;
     state.key_requests = before.key_requests;
+    state.sends_depth = before.sends_depth;
     state.applied = stamp;
     state.version = before.version + 1;
     return state;

@@ -268,7 +268,7 @@ SessionState initialState(const SessionContext& context, TimePoint now) {
 
 bool setsState(const Command& command) {
     return !holdsOneOf<Hello, Ack, Ping, RequestControl, ReleaseControl, GiveControl, Pause,
-                       RequestKeyFrame, SelectScene>(command);
+                       RequestDepth, RequestKeyFrame, SelectScene>(command);
 }
 
 CommandResult<SessionState> apply(SessionState state,

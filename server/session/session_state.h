@@ -20,6 +20,7 @@ struct SessionState {
     uint64_t version = 1; // grows with each change of any other member except `applied`
     settings::CodecSet decodable = settings::commonCodecs(); // by all who see it
     uint64_t key_requests = 0;                               // key frames asked for so far
+    bool sends_depth = false;           // with pictures of a moving view: somebody asked for it
     motion::Playback playback{};        // of the scene's animations, by secondsOf(the host's clock)
     std::optional<uint32_t> followed{}; // of SceneSummary::cameras, one that moves
     // Of the scene that is shown, which stays on the device for it; null: the only one.

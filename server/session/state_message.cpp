@@ -179,6 +179,15 @@ void fill(v1::CameraPose& out, const settings::Camera& camera) {
     fillVec(*out.mutable_up(), camera.world_from_view[1]);
 }
 
+void fill(v1::PictureCamera& out, const settings::Camera& camera) {
+    fillVec(*out.mutable_eye(), camera.eye_world);
+    fillVec(*out.mutable_right(), camera.world_from_view[0]);
+    fillVec(*out.mutable_up(), camera.world_from_view[1]);
+    out.set_half_height(std::tan(camera.yfov_rad / 2));
+    out.set_lens_shift_x(camera.lens_shift.x);
+    out.set_lens_shift_y(camera.lens_shift.y);
+}
+
 // Durations and counts on the wire stop at the largest u32: 71 minutes, where exactness is moot.
 template <class T>
 uint32_t saturated(T value) {
@@ -280,6 +289,7 @@ void addPlace(v1::ServerMessage& message,
         welcome.set_resume_grace_ms(saturated(place.resume_grace.count()));
     }
     welcome.set_resumed(place.resumed);
+    welcome.set_offers_depth(place.offers_depth);
     if (place.room != nullptr) {
         fill(*welcome.mutable_room(), *place.room, place.member);
     }
@@ -432,6 +442,20 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
         fill(*header.mutable_camera(), *record.followed);
     }
     header.set_triangles(record.stats.triangle_count);
+    if (record.depth_mesh > 0) {
+        header.set_depth_mesh(record.depth_mesh);
+        fill(*header.mutable_picture_camera(), record.camera);
+    }
+    return header;
+}
+
+v1::DepthMeshHeader makeDepthMeshHeader(const protocol::CodedDepthMesh& mesh, uint64_t number) {
+    v1::DepthMeshHeader header;
+    header.set_number(number);
+    header.set_columns(mesh.size.columns);
+    header.set_rows(mesh.size.rows);
+    header.set_bits(mesh.bits);
+    header.set_nearest_per_m(mesh.nearest_per_m);
     return header;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/frame_stats.h"
+#include "protocol/depth_mesh.h"
 #include "protocol/framing.h"
 #include "session/room.h"
 #include "session/scene_port.h"
@@ -24,6 +25,7 @@ struct WelcomePlace {
     const Room* room = nullptr;             // absent: a session of one's own
     MemberId member = 0;                    // in the room
     const SessionState* defaults = nullptr; // where `state` is not that of a new session
+    bool offers_depth = false;
 };
 void addPlace(v1::ServerMessage& welcome, const SessionContext& context, const WelcomePlace& place);
 // As `you` is told it.
@@ -71,9 +73,13 @@ struct FrameRecord {
     double time_s = 0;                        // the lights' clock
     std::optional<double> animation_time_s;   // of the one that is chosen
     std::optional<settings::Camera> followed; // as it stood
+    settings::Camera camera;                  // that it was drawn with
+    uint64_t depth_mesh = 0;                  // number of that of its depth; 0: it comes without
     FrameStats stats;
 };
 
 [[nodiscard]] v1::FrameHeader makeFrameHeader(const FrameRecord& record);
+[[nodiscard]] v1::DepthMeshHeader makeDepthMeshHeader(const protocol::CodedDepthMesh& mesh,
+                                                      uint64_t number);
 
 } // namespace froxel::session

@@ -20,8 +20,9 @@ using SessionId = uint64_t;
 // A picture that is ready to be sent. Of those that decode by themselves the newest wins; one that
 // does not (record.key) is of use only after every one since the last that did.
 struct ReadyFrame {
-    FrameRecord record;   // all but send_wait_us and dropped_count, which the sender knows
-    SharedBytes bytes;    // one picture, as record.delivered says
+    FrameRecord record; // all but send_wait_us and dropped_count, which the sender knows
+    SharedBytes bytes;  // one picture, as record.delivered says
+    std::shared_ptr<const protocol::CodedDepthMesh> depth{}; // where record.depth_mesh says so
     Seconds cost{0};      // what a frame costs where the server is slowest, for CreditWindow
     TimePoint ready_at{}; // when it left the encoder
 

@@ -11,6 +11,8 @@
 namespace froxel::stream {
 namespace {
 
+constexpr uint32_t kDepthBits = 10;
+
 // Whether the device made a file of it, or was to.
 bool isFile(const PixelView& view) {
     return view.data == nullptr && !view.planes;
@@ -62,7 +64,36 @@ void FramePipeline::push(DrawnFrame frame) {
     }
 }
 
+void FramePipeline::keepDepth() {
+    const PixelView& pixels = encoding_->pixels.view();
+    inverse_distances_.clear();
+    if (const float* vertices = pixels.output(Output::kDepthMesh)) {
+        const DepthMeshSize mesh(pixels.width_px, pixels.height_px);
+        inverse_distances_.assign(vertices, vertices + mesh.vertexCount());
+    }
+}
+
+// What rests looks the same from a camera that rests: the mesh before is still right, and so it is
+// for a refined picture, which comes without.
+void FramePipeline::codeDepth() {
+    session::FrameRecord& record = encoding_->record;
+    if (!inverse_distances_.empty()) {
+        auto coded = protocol::encodeDepthMesh(
+            inverse_distances_, DepthMeshSize(record.width_px, record.height_px), kDepthBits);
+        if (!depth_ || *depth_ != coded) {
+            depth_ = std::make_shared<const protocol::CodedDepthMesh>(std::move(coded));
+            ++depth_number_;
+        }
+        depth_version_ = encoding_->version;
+        record.depth_mesh = depth_number_;
+    } else if (record.delivered.refinement != session::Refinement::kInteractive &&
+               depth_version_ == encoding_->version) {
+        record.depth_mesh = depth_number_;
+    }
+}
+
 void FramePipeline::startEncoding() {
+    keepDepth();
     // After a refined still the video goes on where it was.
     if (!settings::rowOf(codecOf(*encoding_)).frames_depend &&
         encoding_->record.delivered.refinement < session::Refinement::kHigh) {
@@ -141,10 +172,13 @@ void FramePipeline::onEncoded(Result<EncodedFrame> result) {
     if (result->key) {
         key_requests_ = encoding_->key_requests;
     }
+    codeDepth();
+    auto depth = record.depth_mesh > 0 ? depth_ : nullptr;
     const Seconds cost = std::max(encoding_->cost, Seconds(Microseconds(result->encode_us)));
     ++fates_->encoded;
     if (const auto sink = sink_.lock()) {
-        sink->deliver({std::move(record), std::move(result->bytes), cost, Clock::now()});
+        sink->deliver(
+            {std::move(record), std::move(result->bytes), std::move(depth), cost, Clock::now()});
     }
     finish({});
 }

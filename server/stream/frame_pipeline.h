@@ -15,12 +15,14 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 namespace froxel::stream {
 
 struct DrawnFrame {
     PixelLease pixels;           // or their file, which no encoder is needed for
     uint64_t key_requests = 0;   // key frames asked for so far
+    uint64_t version = 0;        // SessionState::version of what it shows
     session::FrameRecord record; // what is known before encoding
     Seconds cost{0};             // of drawing it
     TimePoint drawn_at{};
@@ -53,6 +55,9 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     [[nodiscard]] Seconds takeWork();
 
   private:
+    // Before an encoder has the pixels.
+    void keepDepth();
+    void codeDepth();
     void startEncoding();
     void takeFile();
     [[nodiscard]] std::optional<encode::VideoJob> videoJob(const DrawnFrame& frame);
@@ -74,6 +79,10 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     std::shared_ptr<encode::Encoder> video_; // none: the next frame of video is a key frame
     settings::Codec video_codec_{};          // which that one is of
     uint64_t key_requests_ = 0;              // served so far
+    std::vector<float> inverse_distances_; // of the vertices of its depth mesh; empty: it has none
+    std::shared_ptr<const protocol::CodedDepthMesh> depth_; // newest; null: none so far
+    uint64_t depth_number_ = 0;                             // of that
+    uint64_t depth_version_ = 0; // DrawnFrame::version of a picture that it is of
     Losses losses_;
     Seconds work_{0};
 };

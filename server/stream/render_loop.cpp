@@ -53,6 +53,15 @@ void warnOfLongStep(std::string_view step,
                  logValue(session::unusualSettings(state), 1000));
 }
 
+// Whether its viewers may draw its picture from a camera near its own. A picture that rests has the
+// depth of the one before; a camera that is orthographic shows no parallax.
+bool sendsDepth(const BegunFrame& frame) {
+    return frame.state.sends_depth &&
+           frame.record.delivered.refinement == session::Refinement::kInteractive &&
+           frame.record.camera.projection == settings::Projection::kPerspective &&
+           !settings::replacesPicture(frame.state.settings.debug.view);
+}
+
 [[nodiscard]] bool isThisPictureAlone(const Error& error) {
     return error.code == ErrorCode::kCapacity || error.code == ErrorCode::kTooLong ||
            error.code == ErrorCode::kUnsupported;
@@ -478,7 +487,10 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
     if (frame.sample_count == 1) {
         terms.encoding.becomes = with.encoding;
     }
-    settings.camera = frame.record.followed.value_or(settings.camera);
+    if (sendsDepth(frame)) {
+        terms.encoding.outputs.add(Output::kDepthMesh);
+    }
+    settings.camera = frame.record.camera;
     if (frame.sample_count > 1) {
         settings.camera = settings::sampled(settings.camera, settings.size, frame.sample);
         settings.antialiasing = settings::Antialiasing::kNone; // the mean is smoother
@@ -652,8 +664,8 @@ void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame draw
     record.height_px = pixels.height_px;
     record.render_us = Microseconds(now - frame.started).count();
     record.stats = std::move(drawn.stats);
-    viewer.pipeline->push({std::move(drawn.pixels), frame.state.key_requests, std::move(record),
-                           std::max(need, options_.min_frame_interval), now});
+    viewer.pipeline->push({std::move(drawn.pixels), frame.state.key_requests, frame.state.version,
+                           std::move(record), std::max(need, options_.min_frame_interval), now});
 }
 
 // Whoever joined meanwhile is told too. The device is asked nothing more and nothing that it may

@@ -108,8 +108,9 @@ std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) 
         }
         record.time_s = state.light_clock.secondsAt(now);
         record.animation_time_s = state.playback.timeAt(session::SessionState::secondsOf(now));
+        record.camera = state.cameraAt(now);
         if (state.followed) {
-            record.followed = state.cameraAt(now);
+            record.followed = record.camera;
         }
         if (!submitted || submitted->applied != state.applied) {
             record.queue_us = Microseconds(now - arrived).count();

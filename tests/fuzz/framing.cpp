@@ -4,6 +4,7 @@
 #include "core/assert.h"
 #include "froxel/v1/server.pb.h"
 #include "fuzz/target.h"
+#include "protocol/depth_mesh.h"
 #include "protocol/limits.h"
 
 #include <google/protobuf/stubs/logging.h>
@@ -37,6 +38,20 @@ void readFrame(ByteSpan bytes) {
                   "its header reads back the same");
 }
 
+void readDepth(ByteSpan bytes) {
+    v1::DepthMeshHeader header;
+    const auto coded = protocol::decodeDepth(bytes, header);
+    if (!coded) {
+        FROXEL_ASSERT(isOneLine(coded.error().message), "a refusal is one line");
+        return;
+    }
+    constexpr uint32_t kMostSide_px = 512;
+    DepthMeshSize size(1 + header.columns() % kMostSide_px, 1 + header.rows() % kMostSide_px);
+    const auto steps = protocol::decodeDepthMesh(*coded, size, header.bits());
+    FROXEL_ASSERT(steps ? steps->size() == size.vertexCount() : isOneLine(steps.error().message),
+                  "a step for each vertex, or one line");
+}
+
 void readServerMessage(ByteSpan bytes, WireFormat format) {
     v1::ServerMessage message;
     if (const auto read = protocol::decodeServerMessage(bytes, format, message); !read) {
@@ -59,6 +74,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const google::protobuf::LogSilencer silence;
     const protocol::ByteSpan bytes = std::as_bytes(std::span(data, size));
     fuzz::readFrame(bytes);
+    fuzz::readDepth(bytes);
     fuzz::readServerMessage(bytes, protocol::WireFormat::kBinary);
     fuzz::readServerMessage(bytes, protocol::WireFormat::kText);
     return 0;

@@ -96,6 +96,7 @@ const std::array kFrames = {
               }},
     StepFrame{"planes", [](FrameInputs& f) { f.form.plane_sampling = 2; }},
     StepFrame{"depth", [](FrameInputs& f) { f.outputs = {Output::kDepth}; }},
+    StepFrame{"depth mesh", [](FrameInputs& f) { f.outputs = {Output::kDepthMesh}; }},
 };
 
 } // namespace

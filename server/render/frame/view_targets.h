@@ -1,6 +1,7 @@
 // The images and buffers that one viewer's frames are drawn into, at one size.
 #pragma once
 
+#include "core/depth_mesh.h"
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
 #include "interface/frame_io.h"
@@ -57,6 +58,14 @@ inline constexpr vk::DeviceSize kWordBytes = 8;
     return vk::DeviceSize{4} * shown.width_px * shown.height_px;
 }
 
+[[nodiscard]] inline vk::DeviceSize outputBytes(Output output, const FrameSize& size) {
+    const vk::DeviceSize samples =
+        output == Output::kDepthMesh
+            ? DepthMeshSize(size.shown.width_px, size.shown.height_px).vertexCount()
+            : vk::DeviceSize{size.drawn.width_px} * size.drawn.height_px;
+    return samples * kOutputRows[static_cast<size_t>(output)].floats * sizeof(float);
+}
+
 // What of a frame comes to the host.
 struct ReadbackBytes {
     vk::DeviceSize picture = 0;                         // packed pixels, planes or a file of them
@@ -75,8 +84,7 @@ struct ReadbackBytes {
     }
     for (size_t i = 0; i < kOutputCount; ++i) {
         bytes.outputs[i] = inputs.outputs.has(static_cast<Output>(i))
-                               ? vk::DeviceSize{kOutputRows[i].floats} * sizeof(float) *
-                                     size.drawn.width_px * size.drawn.height_px
+                               ? outputBytes(static_cast<Output>(i), size)
                                : 0;
     }
     return bytes;

@@ -61,6 +61,7 @@ inline constexpr const char* kPlanes = "planes";
 inline constexpr const char* kReadback = "readback";
 inline constexpr const char* kRadianceReadback = "radiance_readback";
 inline constexpr const char* kLinearDepth = "linear_depth";
+inline constexpr const char* kDepthMesh = "depth_mesh";
 
 // A price alone: of all passes that make light lists on the device.
 inline constexpr const char* kAssign = "assign";

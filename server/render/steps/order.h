@@ -12,6 +12,7 @@ extern const StepRow kBackgroundStep;
 extern const StepRow kBlendedStep;
 extern const StepRow kBloomStep;
 extern const StepRow kDebugViewStep;
+extern const StepRow kDepthMeshStep;
 extern const StepRow kDepthStep;
 extern const StepRow kEnvironmentStep;
 extern const StepRow kExposureStep;
@@ -73,6 +74,7 @@ inline constexpr std::array kOrder = {
     &kReadbackStep,
     &kRadianceReadbackStep,
     &kLinearDepthStep,
+    &kDepthMeshStep,
 };
 
 } // namespace froxel::render

@@ -45,6 +45,23 @@ TEST(Frame, PrefixAndPayload_ComeBack) {
               "ABCDE");
 }
 
+TEST(Depth, PrefixAndBytes_ComeBack) {
+    v1::DepthMeshHeader header;
+    header.set_number(3);
+    header.set_columns(2);
+    const std::string message = encodeDepthPrefix(header) + "AB";
+    EXPECT_EQ(toHex(message.substr(0, 2)), "f703");
+    EXPECT_EQ(binaryKind(bytesOf(message)).value(), Kind::kDepth);
+    v1::DepthMeshHeader back;
+    const auto bytes = decodeDepth(bytesOf(message), back);
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    EXPECT_EQ(back.SerializeAsString(), header.SerializeAsString());
+    EXPECT_EQ(bytes->size(), 2U);
+    EXPECT_THAT(decodeError(message), HasSubstr("not a frame"));
+    const auto other = decodeDepth(bytesOf(encodeFramePrefix(headerFor({}))), back);
+    EXPECT_THAT(other.error().message, HasSubstr("not a depth"));
+}
+
 TEST(Frame, LongHeader_UsesBothLengthBytes) {
     v1::FrameHeader header = headerFor({});
     header.add_passes()->set_name(std::string(700, 'p'));

@@ -118,6 +118,44 @@ TEST_F(FramePipelineTest, Push_FileOfTheDevice_NeedsNoEncoder) {
     release.count_down();
 }
 
+TEST_F(FramePipelineTest, Depth_IsNumberedAnewOnlyWhereItDiffers) {
+    encode::EncodePool pool(1, 4);
+    const auto pipeline = makePipeline(pool);
+    constexpr DepthMeshSize kMesh(kSide, kSide);
+    const std::vector<float> near(kMesh.vertexCount(), 1);
+    std::vector<float> far = near;
+    far[2] = 0.5F;
+    const auto push = [&](uint64_t id, const std::vector<float>* mesh, uint64_t version,
+                          session::Refinement refinement) {
+        PixelView view{pixels_.data(), kSide, kSide, size_t{4} * kSide};
+        view.outputs[static_cast<size_t>(Output::kDepthMesh)] = mesh ? mesh->data() : nullptr;
+        DrawnFrame drawn = frameOf(id, view);
+        drawn.record.width_px = drawn.record.height_px = kSide;
+        drawn.record.delivered.refinement = refinement;
+        drawn.version = version;
+        pipeline->push(std::move(drawn));
+        ASSERT_TRUE(sink_->waitForFrames(id));
+        waitForProgress(static_cast<int>(id));
+    };
+    using session::Refinement;
+    push(1, nullptr, 1, Refinement::kInteractive);
+    push(2, &near, 1, Refinement::kInteractive);
+    push(3, &near, 2, Refinement::kInteractive); // a light moved
+    push(4, &far, 3, Refinement::kInteractive);
+    push(5, nullptr, 3, Refinement::kHigh);        // the same view, refined
+    push(6, nullptr, 3, Refinement::kInteractive); // nobody asks for it any more
+    push(7, nullptr, 4, Refinement::kHigh);        // another view
+    std::vector<uint64_t> numbers;
+    for (const auto& ready : sink_->frames()) {
+        numbers.push_back(ready.record.depth_mesh);
+        EXPECT_EQ(ready.depth != nullptr, ready.record.depth_mesh > 0);
+    }
+    EXPECT_EQ(numbers, (std::vector<uint64_t>{0, 1, 1, 2, 2, 0, 0}));
+    const auto& mesh = *sink_->frames()[3].depth;
+    EXPECT_EQ(mesh.size, kMesh);
+    EXPECT_EQ(protocol::decodeDepthMesh(mesh.bytes, mesh.size, mesh.bits).value()[2], 512);
+}
+
 TEST_F(FramePipelineTest, Push_FileBehindAPictureInTheEncoder_LeavesAfterIt) {
     encode::EncodePool pool(1, 4);
     std::latch release(1);
