@@ -9,6 +9,8 @@ import { Viewer } from './viewer';
 
 export interface Pages {
   readonly url: string;
+  /** See Server. */
+  hold(held: boolean): void;
   /** `at`: what follows the server's address. Resolves once a picture is there. */
   open(at: string, options?: BrowserContextOptions): Promise<Viewer>;
 }
@@ -37,6 +39,7 @@ export function usePages(options: readonly string[] = []): Pages {
     get url() {
       return server.url;
     },
+    hold: (held) => server.hold(held),
     async open(at, context = {}) {
       const viewer = await Viewer.open(browser, server.url + at, context);
       viewers.push(viewer);

@@ -9,6 +9,8 @@ const kStopMs = 30_000;
 export interface Server {
   readonly url: string;
   readonly port: number;
+  /** Stops it where it stands, as a network that carries nothing would, until it is to go on. */
+  hold(held: boolean): void;
   /** Ends it by SIGTERM; resolves to its exit code. */
   stop(): Promise<number | null>;
 }
@@ -30,7 +32,8 @@ export async function startServer(port = 0, more: readonly string[] = []): Promi
     if (log.length > 100) log.shift();
   });
   const url = await firstUrl(child, log);
-  return { url, port: Number(new URL(url).port), stop: () => stop(child, log) };
+  const hold = (held: boolean): void => void child.kill(held ? 'SIGSTOP' : 'SIGCONT');
+  return { url, port: Number(new URL(url).port), hold, stop: () => stop(child, log) };
 }
 
 function firstUrl(child: ChildProcess, log: readonly string[]): Promise<string> {

@@ -73,7 +73,7 @@ async function open(): Promise<void> {
     route = page;
     socket(page);
   });
-  await viewer.page.goto(server.url + kStill);
+  await viewer.page.goto(server.url + '?reprojection=off' + kStill);
 }
 
 async function openWithPicture(): Promise<void> {
@@ -150,7 +150,7 @@ it('Connecting', async () => {
       performance.getEntriesByType('resource').some(({ name }) => name.includes('decode_worker')),
     ),
   );
-  expect(await viewer.fetchedBytes()).toBeLessThan(62_000);
+  expect(await viewer.fetchedBytes()).toBeLessThan(63_000);
   await looksAsItShould('connecting');
 });
 
@@ -200,7 +200,7 @@ it('Figures', async () => {
   await openWithPicture();
   await viewer.openFigures();
   await viewer.page.locator('#panel [data-field]').first().waitFor({ state: 'attached' }); // fetched ahead
-  expect(await viewer.fetchedBytes()).toBeLessThan(122_000);
+  expect(await viewer.fetchedBytes()).toBeLessThan(126_000);
   await until('passes', async () => (await viewer.page.locator('#passes-table tr').count()) > 0);
   await looksAsItShould('figures');
 });

@@ -53,6 +53,7 @@ export class Viewer {
   readonly complaints: string[] = []; // errors on the console, exceptions
   private sentCount = 0; // of any kind, as far as Chromium has told
   frameCount = 0;
+  depthCount = 0;
   lastFrame: FrameHeader | null = null;
   connectionCount = 0;
 
@@ -120,6 +121,20 @@ export class Viewer {
       const { data } = context.getImageData(0, 0, small.width, small.height);
       return [...data].filter((_, index) => index % 4 !== 3);
     });
+  }
+
+  /** The same of the whole page, as it is seen. */
+  async pageThumbnail(): Promise<number[]> {
+    const png = (await this.page.screenshot()).toString('base64');
+    return this.page.evaluate(async (base64) => {
+      const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+      const small = new OffscreenCanvas(64, 36);
+      const context = small.getContext('2d');
+      if (!context) return [];
+      context.drawImage(await createImageBitmap(new Blob([bytes])), 0, 0, small.width, small.height);
+      const { data } = context.getImageData(0, 0, small.width, small.height);
+      return [...data].filter((_, index) => index % 4 !== 3);
+    }, png);
   }
 
   async picture(): Promise<number[]> {
@@ -244,6 +259,10 @@ export class Viewer {
     const decoded = decodeBinary(new Uint8Array(payload).buffer);
     if (decoded.kind === 'message') {
       this.received.push(decoded.message);
+      return;
+    }
+    if (decoded.kind === 'depth') {
+      this.depthCount += 1;
       return;
     }
     this.frameCount += 1;

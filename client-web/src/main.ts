@@ -45,9 +45,11 @@ import { Stats } from './stats/stats';
 import { StatsCard } from './stats/stats_card';
 import { CanvasInput } from './steering/input';
 import type { LightHandles } from './steering/light_handles';
+import type { Warp } from './warp';
 
 const kPrefetchMs = 1_000; // after the first picture
 const kClaimMs = 150; // until another tab has answered
+const wantsWarp = new URLSearchParams(location.search).get('reprojection') !== 'off';
 const kMinorOfPause = 2; // protocol_minor since which a server knows Pause
 
 const canvas = element('view', HTMLCanvasElement);
@@ -71,7 +73,11 @@ const presenter = new Presenter({
   decode: workerDecoder(worker),
   nextFrame,
   nowMs,
-  paint: (bitmap, header) => picture.paint(bitmap, header.scale),
+  paint: (bitmap, header) => {
+    picture.paint(bitmap, header.scale);
+    if (warp.here) warp.here.setPicture(bitmap, header);
+    else bitmap.close();
+  },
   acknowledge: (ack) => void connection.send({ case: 'ack', value: ack }),
   painted: (header, decodeMs) => {
     stats.painted(header, decodeMs, nowMs());
@@ -85,6 +91,7 @@ const presenter = new Presenter({
     }
     if (banner.pictureShown(header)) {
       setTimeout(prefetch, kPrefetchMs);
+      if (wantsWarp) void warp.want().then(askForDepth);
       if (mayControl(store.state.room)) void showDragHint();
     }
   },
@@ -98,6 +105,7 @@ const connection = new Connection(
     link: (link) => {
       if (link.phase === 'greeting') {
         presenter.restart();
+        warp.here?.restart();
         stats.restart();
       }
       store.dispatch({ type: 'link', link });
@@ -106,6 +114,7 @@ const connection = new Connection(
       const { body } = message;
       if (body.case === 'welcome') resume.keep(body.value.resumeToken);
       if (body.case === 'error' && body.value.refSeq > 0n) stats.refused();
+      if (body.case === 'sceneChanged') warp.here?.restart();
       if (body.case === 'draining') {
         resume.keep(''); // a session does not move
         connection.leave(body.value.deadlineMs, body.value.reconnectUrl);
@@ -117,6 +126,10 @@ const connection = new Connection(
     frame: (frame, bytes) => {
       stats.received(bytes, nowMs());
       presenter.offer(frame);
+    },
+    depth: (depth, bytes) => {
+      stats.received(bytes, nowMs());
+      warp.here?.setDepth(depth);
     },
     sent: (body) => recorder.sent(body),
     tokenWanted: () => token.ask(),
@@ -162,6 +175,7 @@ const renderersCard = new Later(makeRenderers, partMissing);
 const pictureCard = new Later(makePictures, partMissing);
 const bring = new Later(makeBring, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
+const warp = new Later(makeWarp, () => undefined); // without it the picture shows as it comes
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
 const help = element('help', HTMLDialogElement);
@@ -183,7 +197,12 @@ store.listen((state) => {
   element('panel', HTMLElement).inert = !mayControl(state.room);
 });
 store.listen(({ link }, before) => {
-  if (link.phase === 'live' && before.link.phase !== 'live') tellVisibility(true);
+  if (link.phase !== 'live' || before.link.phase === 'live') return;
+  tellVisibility(true);
+  if (warp.here) askForDepth();
+});
+store.listen(({ settings, room }, before) => {
+  if (settings !== before.settings || room !== before.room) warp.here?.cameraMoved();
 });
 store.listen((state, before) => {
   const [now, then] = [state.settings, before.settings];
@@ -288,6 +307,15 @@ async function makeAnimation(): Promise<AnimationCard> {
   return new AnimationCard(commands);
 }
 
+async function makeWarp(): Promise<Warp> {
+  const { makeWarp } = await import('./warp');
+  return makeWarp(element('warp', HTMLCanvasElement), {
+    wanted: () => (mayControl(store.state.room) ? store.state.settings : null),
+    nextFrame,
+    problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
+  });
+}
+
 async function makeScenes(): Promise<ScenesCard> {
   const [{ ScenesCard }] = await Promise.all([
     import('./cards/scenes_card'),
@@ -331,6 +359,11 @@ function prefetch(): void {
   searchCard.ahead();
   statsCard.prefetch();
   commands.prefetch();
+}
+
+/** Its connection has begun, and what is done with depth is there. */
+function askForDepth(): void {
+  if (warp.here && store.state.server?.offersDepth) connection.send({ case: 'requestDepth', value: { wanted: true } });
 }
 
 function partMissing(): void {

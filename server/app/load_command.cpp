@@ -45,8 +45,13 @@ constexpr uint32_t kViewersPerThread = 32;
 constexpr uint32_t kMostTried = 10'000; // viewers, by --find
 
 std::vector<std::string> tokensOf(const LoadOptions& options) {
-    return options.token_file.empty() ? std::vector<std::string>()
-                                      : net::readTokenFile(options.token_file).value();
+    std::vector<std::string> tokens;
+    if (!options.token_file.empty()) {
+        for (net::TokenLine& line : net::readTokenFile(options.token_file).value()) {
+            tokens.push_back(std::move(line.token));
+        }
+    }
+    return tokens;
 }
 
 load::ScriptChoice scriptOf(const LoadOptions& options, const std::string& name) {

@@ -43,6 +43,25 @@ Result<std::string> parseAdvertise(const std::string& text) {
         fmt::format("'{}' is neither none nor a WebSocket URL, such as wss://host/ws", text)};
 }
 
+// Who gets in, and to what.
+void addAccess(CommandBuilder& command, ServeOptions& options) {
+    command.neverEmpty(
+        command.text("--token-file", "FILE", options.token_file, "",
+                     "File of tokens, one in each line; only viewers who send one get in. SIGHUP "
+                     "reads it again and disconnects viewers whose token is gone"));
+    command.neverEmpty(command.text("--admin-token-file", "FILE", options.admin_token_file, "",
+                                    "File of bearer tokens for POST requests at the admin address; "
+                                    "required beyond loopback. SIGHUP reads it again"));
+    command.neverEmpty(
+        command.text("--tls-cert", "FILE", options.tls_certificate, "",
+                     "PEM certificate with its chain, for https and wss; SIGHUP reads it again"));
+    command.neverEmpty(
+        command.text("--tls-key", "FILE", options.tls_key, "", "Key of the certificate, PEM"));
+    command.cli().add_flag("--no-depth", options.no_depth,
+                           "Send no depth with pictures. Depth lets pages show camera movements at "
+                           "once, and shows clients the shape of what they see");
+}
+
 void addStillLimits(CommandBuilder& command, ServeOptions& options) {
     command.number("--max-stills-per-minute", options.stills_per_minute, kStillsRange,
                    "Maximum number of /render pictures drawn for one token or address; 127.0.0.1 "
@@ -112,21 +131,10 @@ void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
                        : fmt::format("'{}' is not a plain host name, such as froxel.example.org",
                                      text);
         });
-    command.neverEmpty(
-        command.text("--token-file", "FILE", options.token_file, "",
-                     "File of tokens, one in each line; only viewers who send one get in. SIGHUP "
-                     "reads it again and disconnects viewers whose token is gone"));
-    command.neverEmpty(command.text("--admin-token-file", "FILE", options.admin_token_file, "",
-                                    "File of bearer tokens for POST requests at the admin address; "
-                                    "required beyond loopback. SIGHUP reads it again"));
-    command.neverEmpty(
-        command.text("--tls-cert", "FILE", options.tls_certificate, "",
-                     "PEM certificate with its chain, for https and wss; SIGHUP reads it again"));
-    command.neverEmpty(
-        command.text("--tls-key", "FILE", options.tls_key, "", "Key of the certificate, PEM"));
     command.cli().add_flag("--agones", options.agones,
                            "Report readiness, health, sessions and shutdown to Agones' SDK at port "
                            "$AGONES_SDK_HTTP_PORT of this host (9358 by default)");
+    addAccess(command, options);
 }
 
 void addServeLimits(CommandBuilder& command, ServeOptions& options) {

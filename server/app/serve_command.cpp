@@ -232,6 +232,7 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     if (options.agones) {
         run.server.agones = agonesOptions(options);
     }
+    run.offers_depth = !options.no_depth;
     run.encoder_count = encoderCount();
     run.catalogue = catalogueOf(options);
     run.server.catalogue = run.catalogue;

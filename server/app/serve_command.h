@@ -88,6 +88,7 @@ struct ServeOptions {
     std::vector<std::string> host_names;      // answered to, see net::HostNames
     std::vector<std::string> trusted_proxies; // networks, as net::TrustedProxies
     bool agones = false;                      // its SDK on this host is told how the server is
+    bool no_depth = false;                    // pictures come without, whoever asks
     std::filesystem::path token_file;         // one of its tokens is asked for; empty: none
     std::filesystem::path
         admin_token_file; // one of its tokens is asked for by POST at the admin address

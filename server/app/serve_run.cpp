@@ -159,7 +159,8 @@ ServeRun::open(const std::shared_ptr<const Heartbeat>& heartbeat) {
         loop_.setNewcomersFrame(session::initialState(*context, Clock::now()).settings);
     }
     server_->metrics().watchLoad([this] { return loop_.load(Clock::now()); });
-    service.setServing({std::move(context), &loop_, heartbeat, opened.step_limit, scenes_.get()});
+    service.setServing({std::move(context), &loop_, heartbeat, opened.step_limit, scenes_.get(),
+                        options_.offers_depth});
     return std::move(opened.source);
 }
 

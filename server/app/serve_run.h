@@ -42,6 +42,7 @@ struct OpenedScene {
 struct ServeRunOptions {
     net::ServerOptions server;
     uint32_t encoder_count = 1;
+    bool offers_depth = true;                        // as net::Serving
     std::shared_ptr<DeviceLosses> losses;            // null: they are not noted
     std::shared_ptr<catalogue::Catalogue> catalogue; // null: the server has one scene of its own
     // Runs on the render thread while the server already listens. May throw.

@@ -112,6 +112,7 @@ void Conversation::sayWelcome() {
     place.resume_token = seat_->resume_token;
     place.resume_grace = lobby_->resumeGrace();
     place.resumed = seat_->resumed;
+    place.offers_depth = offersDepth();
     answer(seat_->session->welcome(seat_->place.member, std::move(place), told_placed_));
 }
 
@@ -196,15 +197,19 @@ void Conversation::requestKeyFrame(TimePoint now) {
     key_at_ = seat_->session->requestKeyFrame(seat_->place, now);
 }
 
+bool Conversation::offersDepth() const {
+    return seat_->session->offersDepth() && (!pass_ || pass_->depth());
+}
+
 void Conversation::requestDepth(const CommandMessage& message, TimePoint now) {
     const bool wanted = std::get<session::RequestDepth>(message.body).wanted;
     if (wanted == wants_depth_) {
         return;
     }
-    if (wanted && !seat_->session->offersDepth()) {
-        return reject(
-            {RejectCode::kUnsupported, message.stamp.seq, "wanted", "this server sends no depth"},
-            now);
+    if (wanted && !offersDepth()) {
+        return reject({RejectCode::kUnsupported, message.stamp.seq, "wanted",
+                       "this server sends you no depth"},
+                      now);
     }
     if (!depth_requests_.take(now)) {
         return rejectRate(message.stamp, kDepthRequestsPerSecond, "requests for depth", now);

@@ -105,6 +105,7 @@ class Conversation {
     void saySceneNews();
     void setPaused(bool paused, TimePoint now);
     void requestKeyFrame(TimePoint now);
+    [[nodiscard]] bool offersDepth() const;
     void requestDepth(const session::CommandMessage& message, TimePoint now);
     void countDrops(uint32_t before);
     void onFrame(session::ReadyFrame frame);

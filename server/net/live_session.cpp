@@ -400,7 +400,6 @@ v1::ServerMessage LiveSession::welcome(MemberId you,
                                        settings::PlacedLights& placed) const {
     const std::lock_guard lock(mutex_);
     placed = state_.settings.lights.placed;
-    place.offers_depth = serving_.offers_depth;
     if (room_.shared()) {
         place.room = &room_;
         place.member = you;

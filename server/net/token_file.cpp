@@ -11,6 +11,7 @@ namespace {
 
 constexpr size_t kMaxTokens = 10'000;
 constexpr size_t kMinTokenBytes = 16; // fewer can be guessed
+constexpr std::string_view kNoDepth = " no-depth";
 
 bool isToken(std::string_view text) {
     return text.size() >= kMinTokenBytes && text.size() <= protocol::kMaxTokenBytes &&
@@ -19,10 +20,10 @@ bool isToken(std::string_view text) {
 
 } // namespace
 
-Result<std::vector<std::string>> readTokenFile(const std::filesystem::path& path) {
+Result<std::vector<TokenLine>> readTokenFile(const std::filesystem::path& path) {
     const std::string name = printable(path.string(), 200);
     std::ifstream in(path);
-    std::vector<std::string> tokens;
+    std::vector<TokenLine> tokens;
     size_t number = 0;
     for (std::string line; std::getline(in, line);) {
         ++number;
@@ -32,15 +33,20 @@ Result<std::vector<std::string>> readTokenFile(const std::filesystem::path& path
         if (line.empty() || line.front() == '#') {
             continue;
         }
+        const bool depth = !line.ends_with(kNoDepth);
+        if (!depth) {
+            line.resize(line.size() - kNoDepth.size());
+        }
         if (!isToken(line) || tokens.size() == kMaxTokens) {
             return Error{ErrorCode::kInvalidArgument,
                          name + " line " + numberText(number) + ": a token has " +
                              numberText(kMinTokenBytes) + " to " +
                              numberText(protocol::kMaxTokenBytes) +
-                             " bytes of printable ASCII without spaces, and a file at most " +
+                             " bytes of printable ASCII without spaces, \"" +
+                             std::string(kNoDepth) + "\" may follow it, and a file has at most " +
                              numberText(kMaxTokens) + " of them"};
         }
-        tokens.push_back(line);
+        tokens.push_back({line, depth});
     }
     if (!in.eof()) {
         return Error{ErrorCode::kIo, name + " cannot be read"};

@@ -9,8 +9,14 @@
 
 namespace froxel::net {
 
-// At least one. One a line, of printable ASCII without spaces; blank lines and those that begin
-// with # are left out. Errors (kInvalidArgument, kIo) name file and line, never a token.
-[[nodiscard]] Result<std::vector<std::string>> readTokenFile(const std::filesystem::path& path);
+struct TokenLine {
+    std::string token;
+    bool depth = true; // its viewers may have depth with pictures
+};
+
+// At least one. One a line, of printable ASCII without spaces, and maybe " no-depth" behind it;
+// blank lines and those that begin with # are left out. Errors (kInvalidArgument, kIo) name file
+// and line, never a token.
+[[nodiscard]] Result<std::vector<TokenLine>> readTokenFile(const std::filesystem::path& path);
 
 } // namespace froxel::net

@@ -15,18 +15,19 @@ Result<void> TokenGate::load(const std::filesystem::path& path) {
     if (!read) {
         return read.error();
     }
-    // A token that stays is the same object, so that its passes stay valid.
+    // A token that stays as it is is the same object, so that its passes stay valid.
     const std::lock_guard lock(mutex_);
     std::map<std::string_view, std::shared_ptr<const Token>> before;
     for (const auto& token : tokens_) {
         before.emplace(token->secret, token);
     }
     std::vector<std::shared_ptr<const Token>> now;
-    for (std::string& secret : *read) {
-        const auto found = before.find(secret);
-        now.push_back(found != before.end() ? found->second
-                                            : std::make_shared<const Token>(
-                                                  Token{std::move(secret), ++last_number_}));
+    for (TokenLine& line : *read) {
+        const auto found = before.find(line.token);
+        const bool same = found != before.end() && found->second->depth == line.depth;
+        now.push_back(same ? found->second
+                           : std::make_shared<const Token>(
+                                 Token{std::move(line.token), ++last_number_, line.depth}));
     }
     tokens_ = std::move(now);
     everybody_.reset();
@@ -46,6 +47,7 @@ std::optional<TokenGate::Pass> TokenGate::admit(std::string_view token) const {
     }
     Pass pass;
     pass.token_ = known;
+    pass.depth_ = known->depth;
     if (known != everybody_) {
         pass.account_ = session::Account{"token " + numberText(known->number)};
     }

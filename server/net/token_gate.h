@@ -20,6 +20,7 @@ class TokenGate {
     struct Token {
         std::string secret;
         uint64_t number = 0;
+        bool depth = true; // TokenLine::depth
     };
 
   public:
@@ -30,6 +31,8 @@ class TokenGate {
     class Pass {
       public:
         [[nodiscard]] bool valid() const { return !token_.expired(); }
+        // Whether its viewer may have depth with pictures.
+        [[nodiscard]] bool depth() const { return depth_; }
         // None where no token was needed.
         [[nodiscard]] const std::optional<session::Account>& account() const { return account_; }
 
@@ -37,6 +40,7 @@ class TokenGate {
         friend class TokenGate;
         std::weak_ptr<const Token> token_;
         std::optional<session::Account> account_;
+        bool depth_ = true;
     };
     // For everybody before the first load(), until it. None for a token that is not there. In a
     // time that depends on the lengths alone.

@@ -14,6 +14,7 @@ export interface PresenterEnvironment {
   readonly decode: Decode;
   readonly nextFrame: (action: () => void) => void;
   readonly nowMs: () => number;
+  /** The bitmap is its to close. */
   readonly paint: (bitmap: ImageBitmap, header: FrameHeader) => void;
   readonly acknowledge: (ack: FrameTimes) => void;
   readonly painted: (header: FrameHeader, decodeMs: number) => void;
@@ -144,7 +145,6 @@ export class Presenter {
     if (!ready || !this.visible) return;
     this.ready = null;
     this.env.paint(ready.bitmap, ready.header);
-    ready.bitmap.close();
     this.acknowledge(ready.header, ready.receivedMs, ready.decodeMs);
     this.env.painted(ready.header, ready.decodeMs);
   }

@@ -11,6 +11,7 @@ import {
   kProtocolMinor,
   kSubprotocol,
   type ClientBody,
+  type CodedDepth,
   type Frame,
 } from './framing';
 import { announced, type Refusal } from './refusal';
@@ -34,6 +35,7 @@ export interface ConnectionEvents {
   link(link: Link): void;
   message(message: ServerMessage): void;
   frame(frame: Frame, bytes: number): void;
+  depth(depth: CodedDepth, bytes: number): void;
   /** A command that has left, whatever it was. */
   sent?(body: ClientBody): void;
   /** The server lets nobody in who knows none of its tokens. */
@@ -214,6 +216,7 @@ export class Connection {
       if (!(data instanceof ArrayBuffer)) throw new FramingError('a text message from the server');
       const received = decodeBinary(data);
       if (received.kind === 'frame') this.events.frame(received.frame, data.byteLength);
+      else if (received.kind === 'depth') this.events.depth(received.depth, data.byteLength);
       else this.events.message(received.message);
     } catch (error) {
       if (!(error instanceof FramingError)) throw error;

@@ -9,6 +9,7 @@ const kNotRecorded: ReadonlySet<ClientBody['case']> = new Set([
   'ping',
   'pause',
   'requestKeyFrame',
+  'requestDepth',
   'requestControl',
   'releaseControl',
   'giveControl',

@@ -25,6 +25,7 @@ import type { SizeMode } from './size_policy';
 export interface ServerInfo {
   readonly version: string;
   readonly protocolMinor: number;
+  readonly offersDepth: boolean;
   readonly device: string;
   readonly scene: SceneInfo | null;
   readonly bounds: Bounds | null;
@@ -292,6 +293,7 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
   const server: ServerInfo = {
     version: welcome.serverVersion,
     protocolMinor: welcome.protocolMinor,
+    offersDepth: welcome.offersDepth,
     device: welcome.device,
     scene,
     bounds,

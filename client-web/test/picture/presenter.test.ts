@@ -59,7 +59,10 @@ beforeEach(() => {
       }),
     nextFrame: frames.next,
     nowMs: () => clockMs,
-    paint: (image) => void painted.push((image as ReturnType<typeof bitmap>).id),
+    paint: (image) => {
+      painted.push((image as ReturnType<typeof bitmap>).id);
+      image.close();
+    },
     acknowledge: (ack) => {
       acks.push(ack.frameId);
       times.push(ack);

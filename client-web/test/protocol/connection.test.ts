@@ -23,6 +23,7 @@ beforeEach(() => {
       link: (link) => void links.push(link),
       message: (message) => void messages.push(message.body.case),
       frame: () => undefined,
+      depth: () => undefined,
       tokenWanted: () => void (tokensWanted += 1),
       problem: (text) => void problems.push(text),
     },

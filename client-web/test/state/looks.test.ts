@@ -18,7 +18,7 @@ beforeEach(() => {
 afterEach(() => vi.unstubAllGlobals());
 
 const server = (address: string): ServerInfo => ({
-  version: '', protocolMinor: 1, device: '', scene: null, bounds: null, ranges: new Map(),
+  version: '', protocolMinor: 1, offersDepth: false, device: '', scene: null, bounds: null, ranges: new Map(),
   initial: sampleSettings(),
   looks: [create(LookSchema, { name: 'evening', label: 'Evening', help: 'Warm', address })],
 });

@@ -82,13 +82,14 @@ TEST_F(ConfigurationTest, EveryKindOfOption_IsTakenFromTheFile) {
                                 "scene = \"/a b/#1.glb\"\n"
                                 "validation = true\n"
                                 "agones = true\n"
+                                "no-depth = true\n"
                                 "lens-shift = '0.5,-1'\n"
                                 "allow-origin = ['https://a.example', 'https://b.example']\n"
                                 "renderer = \"naive\"\n"
                                 "log-format = \"json\"\n")});
     EXPECT_EQ(serve(options).scene, "/a b/#1.glb");
     EXPECT_TRUE(serve(options).validation);
-    EXPECT_TRUE(serve(options).agones);
+    EXPECT_TRUE(serve(options).agones && serve(options).no_depth);
     EXPECT_EQ(serve(options).lens_shift, glm::dvec2(0.5, -1));
     EXPECT_THAT(serve(options).allowed_origins,
                 ElementsAre("https://a.example", "https://b.example"));

@@ -79,7 +79,7 @@ TEST(Options, ServeWithNone_LeavesTheViewersDefaultsToTheDevice) {
     EXPECT_EQ(serve.port, 8080);
     EXPECT_EQ(serve.address, "127.0.0.1");
     EXPECT_EQ(serve.admin, (net::BindAddress{"127.0.0.1", 9090}));
-    EXPECT_FALSE(serve.agones);
+    EXPECT_FALSE(serve.agones || serve.no_depth);
     EXPECT_FALSE(serve.size || serve.quality);
     EXPECT_EQ(serve.first_view, settings::ViewSettings{});
     EXPECT_FALSE(serve.min_rate_hz);

@@ -102,7 +102,7 @@ TEST_F(DepthTest, ServerThatSendsNone_SaysSo) {
     const v1::Error error = nextAnswer().value().error();
     EXPECT_EQ(error.code(), v1::ERROR_CODE_UNSUPPORTED);
     EXPECT_EQ(error.field(), "wanted");
-    EXPECT_EQ(error.message(), "this server sends no depth");
+    EXPECT_EQ(error.message(), "this server sends you no depth");
     EXPECT_FALSE(port_.session().states.back().sends_depth);
 }
 

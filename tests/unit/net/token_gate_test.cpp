@@ -72,6 +72,20 @@ TEST_F(TokenGateTest, Pass_LastsAsLongAsItsTokenIsInTheFile) {
     EXPECT_TRUE(stays->valid()) << "a broken file changes nothing";
 }
 
+TEST_F(TokenGateTest, NoDepth_IsOfTheTokenThatItFollows) {
+    ASSERT_TRUE(load(kToken + " no-depth\nanother-token-0123\n"));
+    const auto without = gate_->admit(kToken);
+    const auto with = gate_->admit("another-token-0123");
+    ASSERT_TRUE(without && with);
+    EXPECT_FALSE(without->depth());
+    EXPECT_TRUE(with->depth());
+    EXPECT_FALSE(gate_->lets(kToken + " no-depth"));
+    ASSERT_TRUE(load(kToken + "\nanother-token-0123\n"));
+    EXPECT_FALSE(without->valid()) << "its viewer connects again, with other rights";
+    EXPECT_TRUE(with->valid());
+    EXPECT_THAT(load(kToken + " no-deepth\n").error().message, HasSubstr("\" no-depth\" may"));
+}
+
 // One that says Hello with a token to a server that serves.
 struct Talk {
     Talk(std::shared_ptr<const TokenGate> gate, const std::string& token)

@@ -1,0 +1,65 @@
+// The picture from the camera of now, while the server's own is on its way.
+
+import { expect, it } from 'vitest';
+
+import { usePages } from './pages';
+import { difference, until, type Viewer } from './viewer';
+
+const kStill = '#animate=0&scene_lights=1&lights=200&size=640x360';
+const pages = usePages();
+
+const isWarped = (viewer: Viewer): Promise<boolean> => viewer.page.locator('#warp').isVisible();
+
+async function drag(viewer: Viewer, dx: number): Promise<void> {
+  const { mouse } = viewer.page;
+  await mouse.move(600, 300);
+  await mouse.down();
+  await mouse.move(600 + dx, 300, { steps: 4 });
+}
+
+it('DraggedCamera_IsShownBeforeTheServerDrawsIt', async () => {
+  const viewer = await pages.open(kStill);
+  await until('depth', () => viewer.depthCount > 0);
+  await viewer.settled();
+  const before = await viewer.pageThumbnail();
+  expect(await isWarped(viewer)).toBe(false);
+  pages.hold(true);
+  let warped: number[];
+  try {
+    await drag(viewer, 30);
+    await until('the picture from another camera', () => isWarped(viewer));
+    warped = await viewer.pageThumbnail();
+    await viewer.screenshot('warped');
+  } finally {
+    pages.hold(false);
+  }
+  await viewer.page.mouse.up();
+  await viewer.settled();
+  await until('the picture itself', async () => !(await isWarped(viewer)));
+  const after = await viewer.pageThumbnail();
+  await viewer.screenshot('unwarped');
+  expect(difference(before, after)).toBeGreaterThan(3);
+  expect(difference(warped, after)).toBeLessThan(0.35 * difference(before, after));
+});
+
+it('ManyMoves_EndAtTheServersPicture', async () => {
+  const viewer = await pages.open(kStill);
+  await until('depth', () => viewer.depthCount > 0);
+  for (const dx of [80, -160, 60, -20]) {
+    await drag(viewer, dx);
+    await viewer.page.mouse.up();
+  }
+  await viewer.settled();
+  await until('the picture itself', async () => !(await isWarped(viewer)));
+  expect(viewer.depthCount).toBeGreaterThan(1);
+});
+
+it('TurnedOff_AsksForNoDepth', async () => {
+  const viewer = await pages.open(`?reprojection=off${kStill}`);
+  await viewer.settled();
+  await drag(viewer, 60);
+  await viewer.page.mouse.up();
+  await viewer.settled();
+  expect(viewer.depthCount).toBe(0);
+  expect(viewer.sent.some(({ body }) => body.case === 'requestDepth')).toBe(false);
+});

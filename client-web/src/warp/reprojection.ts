@@ -1,0 +1,154 @@
+// Shows the newest picture from the camera of now until the server's own picture of that camera is
+// here: camera input does not wait for the server. While the camera rests, and where a picture has
+// no depth, the picture itself shows.
+
+import type { Size } from '../core/size';
+import type { FrameHeader, PictureCamera } from '../gen/froxel/v1/server_pb';
+import { toVec, type CameraSettings } from '../settings/settings';
+import { verticesAlong, type DepthMesh } from './depth_mesh';
+import { warpCamera, warpCameraOf, warped, warpMatrix, type WarpCamera } from './warp_matrix';
+import type { Surface } from './warp_surface';
+
+export interface Wanted extends CameraSettings {
+  readonly width: number;
+  readonly height: number;
+}
+
+export interface ReprojectionEnvironment {
+  readonly surface: Surface;
+  /** What the viewer wants to see now; null: what the server shows, as of somebody else's camera. */
+  readonly wanted: () => Wanted | null;
+  readonly nextFrame: (action: () => void) => void;
+}
+
+interface Shown {
+  readonly bitmap: ImageBitmap;
+  readonly camera: WarpCamera;
+  readonly size: Size;
+  readonly mesh: DepthMesh;
+  uploaded: boolean;
+}
+
+/** A shorter way of any pixel is not seen: the picture shows as it is, to the bit. */
+const kStillPx = 0.05;
+/** Of the view that the picture does not have. Beyond, another picture is better waited for. */
+const kMostOutside = 0.6;
+const kProbes = 7; // across and down the view
+
+export class Reprojection {
+  private mesh: DepthMesh | null = null; // newest
+  private shown: Shown | null = null; // null: it cannot be shown from another camera
+  private pending = false;
+  private drawnFor: readonly [Shown | null, Wanted | null] = [null, null];
+
+  constructor(private readonly env: ReprojectionEnvironment) {}
+
+  /** Of pictures that come. */
+  setMesh(mesh: DepthMesh): void {
+    this.mesh = mesh;
+  }
+
+  /** The picture was painted; the bitmap is this one's to close. Draws at once. */
+  setPicture(bitmap: ImageBitmap, header: FrameHeader): void {
+    this.shown?.bitmap.close();
+    this.shown = this.shownOf(bitmap, header);
+    if (!this.shown) bitmap.close();
+    this.draw();
+  }
+
+  /** Draws before the next repaint. */
+  cameraMoved(): void {
+    if (this.pending || !this.shown) return;
+    this.pending = true;
+    this.env.nextFrame(() => {
+      this.pending = false;
+      this.draw();
+    });
+  }
+
+  /** What comes next is of another session or scene. */
+  restart(): void {
+    this.shown?.bitmap.close();
+    this.shown = null;
+    this.mesh = null;
+    this.env.surface.show(false);
+  }
+
+  private shownOf(bitmap: ImageBitmap, header: FrameHeader): Shown | null {
+    const { mesh } = this;
+    const { width, height, depthMesh, pictureCamera } = header;
+    if (!pictureCamera || depthMesh === 0n || mesh?.number !== depthMesh) return null;
+    if (mesh.columns !== verticesAlong(width) || mesh.rows !== verticesAlong(height)) return null;
+    const camera = cameraOfPicture(pictureCamera);
+    return camera && { bitmap, camera, size: { width, height }, mesh, uploaded: false };
+  }
+
+  private draw(): void {
+    const { surface } = this.env;
+    const { shown } = this;
+    const wanted = this.env.wanted();
+    if (this.drawnFor[0] === shown && this.drawnFor[1] === wanted) return;
+    this.drawnFor = [shown, wanted];
+    const to = wanted && warpCameraOf(wanted);
+    if (!shown || !to || !hasShapeOf(shown.size, wanted)) {
+      surface.show(false);
+      return;
+    }
+    const aspect = wanted.width / wanted.height;
+    const { nearestPerM: nearest, medianPerM } = shown.mesh;
+    const matrix = warpMatrix(shown.camera, to, aspect, nearest);
+    if (isStill(matrix, wanted, nearest)) {
+      surface.show(false);
+      return;
+    }
+    if (outsideShare(warpMatrix(to, shown.camera, aspect, nearest), medianPerM) > kMostOutside) return;
+    if (!shown.uploaded) {
+      shown.uploaded = true;
+      surface.setPicture(shown.bitmap);
+      surface.setMesh(shown.mesh);
+    }
+    surface.draw(matrix, wanted);
+    surface.show(true);
+  }
+}
+
+/** Null: one of its numbers is none. */
+function cameraOfPicture(camera: PictureCamera): WarpCamera | null {
+  const { eye, right, up, halfHeight, lensShiftX, lensShiftY } = camera;
+  const made = warpCamera({ eye: toVec(eye), right: toVec(right), up: toVec(up), halfHeight, lensShiftX, lensShiftY });
+  const numbers = [made.eye, made.right, made.up].flatMap(({ x, y, z }) => [x, y, z]);
+  const usable = [...numbers, halfHeight, lensShiftX, lensShiftY].every(Number.isFinite) && halfHeight > 0;
+  return usable ? made : null;
+}
+
+/** Whether a picture, which may be a scaled one, is of that size. */
+function hasShapeOf(picture: Size, wanted: Size): boolean {
+  const scale = picture.width / wanted.width;
+  return Math.abs(picture.height - wanted.height * scale) <= 1;
+}
+
+const kEnds: readonly number[] = [-1, 0, 1];
+
+/** Whether nothing would be seen to move, however near it is. */
+function isStill(matrix: Float32Array, { width, height }: Size, nearestPerM: number): boolean {
+  return kEnds.every((x) =>
+    kEnds.every((y) =>
+      [0, nearestPerM].every((w) => {
+        const at = warped(matrix, x, y, w);
+        return at !== null && Math.hypot((at.x - x) * width, (at.y - y) * height) / 2 < kStillPx;
+      }),
+    ),
+  );
+}
+
+/** Of a view, by where the picture has what is as far away as most of it. */
+function outsideShare(pictureFromView: Float32Array, perM: number): number {
+  let outside = 0;
+  for (let i = 0; i < kProbes * kProbes; i += 1) {
+    const x = (2 * (i % kProbes)) / (kProbes - 1) - 1;
+    const y = (2 * Math.floor(i / kProbes)) / (kProbes - 1) - 1;
+    const at = warped(pictureFromView, x, y, perM);
+    outside += at && Math.abs(at.x) <= 1 && Math.abs(at.y) <= 1 ? 0 : 1;
+  }
+  return outside / (kProbes * kProbes);
+}
