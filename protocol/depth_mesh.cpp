@@ -4,7 +4,7 @@
 #include "core/text.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace froxel::protocol {
@@ -94,16 +94,38 @@ class NibbleReader {
 };
 
 std::vector<uint16_t>
-stepsOf(std::span<const float> inverse_distances, double nearest, double top) {
+stepsOf(std::span<const float> inverse_distances, float nearest, uint32_t top) {
     std::vector<uint16_t> steps(inverse_distances.size(), 0);
     if (nearest > 0) {
-        const double scale = top / nearest;
-        std::ranges::transform(inverse_distances, steps.begin(), [scale](float inverse) {
-            const bool there = inverse > 0 && std::isfinite(inverse);
-            return there ? static_cast<uint16_t>(static_cast<double>(inverse) * scale + 0.5) : 0;
+        const auto most = static_cast<float>(top);
+        const float scale = most / nearest; // infinite where all are next to nothing
+        std::ranges::transform(inverse_distances, steps.begin(), [=](float inverse) {
+            const bool there = inverse > 0 && inverse <= nearest;
+            return there ? static_cast<uint16_t>(std::min(inverse * scale + 0.5F, most)) : 0;
         });
     }
     return steps;
+}
+
+// Of what each vertex differs by from its prediction: row by row, as no vertex waits for another.
+std::vector<uint32_t> numbersOf(std::span<const uint16_t> steps, DepthMeshSize size, int32_t top) {
+    std::vector<uint32_t> numbers(steps.size());
+    const auto differs = [&](size_t at, int32_t prediction) {
+        numbers[at] = folded(steps[at] - prediction);
+    };
+    differs(0, 0);
+    for (size_t x = 1; x < size.columns; ++x) {
+        differs(x, steps[x - 1]);
+    }
+    for (size_t row = size.columns; row < steps.size(); row += size.columns) {
+        const uint16_t* const here = &steps[row];
+        const uint16_t* const above = &steps[row - size.columns];
+        differs(row, above[0]);
+        for (size_t x = 1; x < size.columns; ++x) {
+            differs(row + x, std::clamp(here[x - 1] + above[x] - above[x - 1], 0, top));
+        }
+    }
+    return numbers;
 }
 
 } // namespace
@@ -113,17 +135,15 @@ encodeDepthMesh(std::span<const float> inverse_distances, DepthMeshSize size, ui
     FROXEL_ASSERT(inverse_distances.size() == size.vertexCount(), "a depth for each vertex");
     FROXEL_ASSERT(bits >= kMinDepthBits && bits <= kMaxDepthBits, "bits out of their range");
     CodedDepthMesh coded{.size = size, .bits = bits};
+    float nearest = 0;
     for (const float inverse : inverse_distances) {
-        const auto exact = static_cast<double>(inverse);
-        coded.nearest_per_m =
-            std::isfinite(inverse) ? std::max(coded.nearest_per_m, exact) : coded.nearest_per_m;
+        nearest = inverse > nearest && inverse < std::numeric_limits<float>::infinity() ? inverse
+                                                                                        : nearest;
     }
-    const auto top = static_cast<int32_t>((1U << bits) - 1);
-    const auto steps = stepsOf(inverse_distances, coded.nearest_per_m, top);
-    std::vector<uint32_t> numbers(steps.size());
-    for (size_t i = 0; i < steps.size(); ++i) {
-        numbers[i] = folded(steps[i] - predicted(steps, i, size.columns, top));
-    }
+    coded.nearest_per_m = static_cast<double>(nearest);
+    const uint32_t top = (1U << bits) - 1;
+    const auto numbers =
+        numbersOf(stepsOf(inverse_distances, nearest, top), size, static_cast<int32_t>(top));
     coded.bytes.reserve(numbers.size());
     NibbleWriter out(coded.bytes);
     const auto lengthOf = [&numbers](size_t begin, bool zeros) {

@@ -4,7 +4,7 @@ import { mkdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
 import { fromBinary } from '@bufbuild/protobuf';
-import type { Browser, BrowserContextOptions, Locator, Page } from 'playwright-core';
+import type { Browser, BrowserContext, BrowserContextOptions, Locator, Page } from 'playwright-core';
 
 import { ClientMessageSchema, type ClientMessage } from '../src/gen/froxel/v1/client_pb';
 import { DebugView, Refine, Refinement, type ViewState } from '../src/gen/froxel/v1/common_pb';
@@ -79,10 +79,10 @@ export class Viewer {
     url: string,
     options: BrowserContextOptions = {},
   ): Promise<Viewer> {
-    const context = await browser.newContext({
-      viewport: { width: 1280, height: 720 },
-      ...options,
-    });
+    return Viewer.in(await browser.newContext({ viewport: { width: 1280, height: 720 }, ...options }), url);
+  }
+
+  static async in(context: BrowserContext, url: string): Promise<Viewer> {
     await context.addInitScript(countSent);
     const viewer = new Viewer(await context.newPage());
     await viewer.page.goto(url);

@@ -81,6 +81,7 @@ const presenter = new Presenter({
   acknowledge: (ack) => void connection.send({ case: 'ack', value: ack }),
   painted: (header, decodeMs) => {
     stats.painted(header, decodeMs, nowMs());
+    warp.here?.noteLatency(stats.latencyP95Ms(nowMs()));
     lookCosts.painted(header);
     panel.here?.showGrid(header.grid);
     animationCard.here?.showTime(header.animationTimeS);
@@ -313,6 +314,7 @@ async function makeWarp(): Promise<Warp> {
     wanted: () => (mayControl(store.state.room) ? store.state.settings : null),
     nextFrame,
     problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
+    wishChanged: askForDepth,
   });
 }
 
@@ -363,7 +365,8 @@ function prefetch(): void {
 
 /** Its connection has begun, and what is done with depth is there. */
 function askForDepth(): void {
-  if (warp.here && store.state.server?.offersDepth) connection.send({ case: 'requestDepth', value: { wanted: true } });
+  if (!warp.here || !store.state.server?.offersDepth) return;
+  connection.send({ case: 'requestDepth', value: { wanted: warp.here.wantsDepth } });
 }
 
 function partMissing(): void {

@@ -3,6 +3,7 @@
 import type { FrameHeader } from './gen/froxel/v1/server_pb';
 import type { CodedDepth } from './protocol/framing';
 import { decodeDepthMesh, DepthMeshError } from './warp/depth_mesh';
+import { Freshness } from './warp/freshness';
 import { Reprojection, type ReprojectionEnvironment } from './warp/reprojection';
 import { WarpSurface } from './warp/warp_surface';
 
@@ -12,17 +13,29 @@ export interface Warp {
   setPicture(bitmap: ImageBitmap, header: FrameHeader): void;
   cameraMoved(): void;
   restart(): void;
+  /** From input to picture, of late; null: unknown. */
+  noteLatency(p95Ms: number | null): void;
+  /** Whether depth is wanted. */
+  readonly wantsDepth: boolean;
 }
 
 export interface WarpEnvironment extends Omit<ReprojectionEnvironment, 'surface'> {
   readonly problem: (text: string) => void;
+  /** Warp.wantsDepth is another one. */
+  readonly wishChanged: () => void;
 }
 
 /** Throws where the browser has no WebGL2. */
 export function makeWarp(canvas: HTMLCanvasElement, env: WarpEnvironment): Warp {
   const surface = WarpSurface.on(canvas);
   if (!surface) throw new Error('no WebGL2');
-  const reprojection = new Reprojection({ surface, wanted: env.wanted, nextFrame: env.nextFrame });
+  const freshness = new Freshness();
+  const nextFrame: WarpEnvironment['nextFrame'] = (action) =>
+    env.nextFrame((nowMs) => {
+      freshness.noteFrame(nowMs);
+      action(nowMs);
+    });
+  const reprojection = new Reprojection({ surface, wanted: env.wanted, nextFrame });
   return {
     setDepth: ({ header, bytes }) => {
       try {
@@ -35,5 +48,13 @@ export function makeWarp(canvas: HTMLCanvasElement, env: WarpEnvironment): Warp 
     setPicture: (bitmap, header) => reprojection.setPicture(bitmap, header),
     cameraMoved: () => reprojection.cameraMoved(),
     restart: () => reprojection.restart(),
+    noteLatency: (p95Ms) => {
+      if (!freshness.noteLatency(p95Ms)) return;
+      reprojection.setActive(!freshness.fresh);
+      env.wishChanged();
+    },
+    get wantsDepth() {
+      return !freshness.fresh;
+    },
   };
 }

@@ -158,6 +158,9 @@ void addRequests(CommandBuilder& command, LoadOptions& options) {
     command.number("--lights", options.light_count, settings::kLightCountRange, "the server's",
                    "Seeded lights");
     command.name("--codec", options.codec, settings::kChosenCodecNames, "Encoding of pictures");
+    command.cli().add_flag("--depth", options.depth,
+                           "Ask for depth with pictures, as pages do that show camera movements at "
+                           "once, and check it");
     command.number("--video-kbps", options.video_kbps, settings::kVideoKbpsRange, "the server's",
                    "Bit rate of a video codec");
 }

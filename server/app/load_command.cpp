@@ -103,6 +103,7 @@ load::ViewerOptions viewerOptions(const LoadOptions& options) {
         }
     }
     viewer.room = options.room;
+    viewer.depth = options.depth;
     viewer.tokens = tokensOf(options);
     if (!options.tls_authorities.empty() && !options.target.tls) {
         throw StartupError({ErrorCode::kInvalidArgument, "--tls-authorities is for wss://, and " +

@@ -34,6 +34,7 @@ struct LoadOptions {
     settings::Codec codec = settings::kPlainCodec;
     std::optional<uint32_t> video_kbps;    // of a video codec; absent: the server's
     std::string room;                      // shared by all viewers; empty: none
+    bool depth = false;                    // viewers ask for it
     std::filesystem::path token_file;      // empty: no token is shown
     std::filesystem::path tls_authorities; // empty: the system's
     std::filesystem::path json;            // empty: none; so for the following

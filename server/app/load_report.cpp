@@ -82,6 +82,8 @@ Json figuresOf(const ViewerResult& viewer) {
             {"key_frames", viewer.key_frames},
             {"received_bytes_per_s", byteRate(viewer)},
             {"frame_bytes", measured.frame_bytes},
+            {"depth_meshes", measured.depth_meshes},
+            {"depth_bytes", measured.depth_bytes},
             {"smallest_picture", sizeOf(measured.smallest)},
             {"largest_picture", sizeOf(measured.largest)},
             {"server_dropped", measured.server_dropped},

@@ -44,6 +44,7 @@
 //                     runs the viewers was too slow to measure
 //   received_bytes, sent_bytes, received_bytes_per_s   of the TCP connection, framing and pings too
 //   frame_bytes       headers and pictures
+//   depth_meshes, depth_bytes   of viewers that ask for depth; headers and meshes
 //   smallest_picture, largest_picture   {width_px, height_px} of the frames, or null
 //   server_dropped    frames that a newer one replaced before sending
 //   client_dropped    frames that a newer one overtook before they were painted

@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "load/client_tls.h"
 #include "load/opening.h"
+#include "protocol/depth_mesh.h"
 #include "protocol/framing.h"
 #include "protocol/limits.h"
 #include "session/proto_enums.h"
@@ -216,6 +217,8 @@ void Viewer::onRead(Code failure) {
         fail(kind ? "a text message in answer to binary ones" : kind.error().message);
     } else if (*kind == protocol::Kind::kFrame) {
         onFrame(message, now);
+    } else if (*kind == protocol::Kind::kDepth) {
+        onDepth(message);
     } else {
         v1::ServerMessage decoded;
         const auto parsed =
@@ -247,6 +250,11 @@ void Viewer::onFrame(protocol::ByteSpan message, TimePoint now) {
         fail("frame " + numberText(header.frame_id()) + ": " + picture.error().message);
         return;
     }
+    if (header.depth_mesh() > depth_mesh_) {
+        fail("frame " + numberText(header.frame_id()) + " is of depth mesh " +
+             numberText(header.depth_mesh()) + ", which has not come");
+        return;
+    }
     if (const auto noted = meter_.onFrame(header, message.size(), sent_seq_, now); !noted) {
         fail(noted.error().message);
         return;
@@ -261,6 +269,35 @@ void Viewer::onFrame(protocol::ByteSpan message, TimePoint now) {
         }
     }
     paintLater(header.frame_id(), now);
+}
+
+void Viewer::onDepth(protocol::ByteSpan message) {
+    v1::DepthMeshHeader header;
+    const auto coded = protocol::decodeDepth(message, header);
+    if (!coded) {
+        fail(coded.error().message);
+        return;
+    }
+    if (!options_.depth || header.number() <= depth_mesh_) {
+        fail("depth mesh " + numberText(header.number()) +
+             (options_.depth ? " after " + numberText(depth_mesh_) : " that nobody asked for"));
+        return;
+    }
+    constexpr DepthMeshSize kMost(settings::kWidthRange.max, settings::kHeightRange.max);
+    DepthMeshSize size;
+    size.columns = header.columns();
+    size.rows = header.rows();
+    if (size.vertexCount() == 0 || size.columns > kMost.columns || size.rows > kMost.rows) {
+        fail("a depth mesh of " + numberText(size.columns) + "x" + numberText(size.rows) +
+             " vertices");
+        return;
+    }
+    if (const auto steps = protocol::decodeDepthMesh(*coded, size, header.bits()); !steps) {
+        fail(steps.error().message);
+        return;
+    }
+    depth_mesh_ = header.number();
+    meter_.onDepth(message.size());
 }
 
 void Viewer::onMessage(const v1::ServerMessage& message, TimePoint now) {
@@ -301,6 +338,15 @@ void Viewer::onWelcome(const v1::Welcome& welcome, TimePoint now) {
     meter_.onScene(welcome.scene().id());
     onState(welcome.state(), now);
     result_.controlled = controls();
+    if (options_.depth) {
+        if (!welcome.offers_depth()) {
+            fail("the server offers no depth");
+            return;
+        }
+        v1::ClientMessage request;
+        request.mutable_request_depth()->set_wanted(true);
+        send(std::move(request), Clock::now());
+    }
     if (controls()) {
         for (v1::ClientMessage& message : openingOf(options_, *welcome_->mutable_state())) {
             send(std::move(message), Clock::now());

@@ -33,6 +33,7 @@ struct ViewerOptions {
     std::optional<uint32_t> light_count;
     std::optional<v1::SetEncoding> encoding;
     std::string room;                // shared by all; empty: each has a session of its own
+    bool depth = false;              // asks for it, as a page that warps pictures does
     std::vector<std::string> tokens; // shown in turn; none: none
     std::shared_ptr<boost::asio::ssl::context> tls; // for a target that asks for it
 };
@@ -135,6 +136,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     void read();
     void onRead(Code failure);
     void onFrame(protocol::ByteSpan message, TimePoint now);
+    void onDepth(protocol::ByteSpan message);
     void onMessage(const v1::ServerMessage& message, TimePoint now);
     void onWelcome(const v1::Welcome& welcome, TimePoint now);
     void paintLater(uint64_t frame_id, TimePoint now);
@@ -180,6 +182,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     bool ended_ = false;
     bool closing_ = false;
     PictureCheck pictures_;
+    uint64_t depth_mesh_ = 0; // number of the newest
     ViewerMeter meter_;
     ViewerResult result_;
     uint64_t received_before_ = 0;

@@ -27,6 +27,7 @@ bool shows(const v1::ClientMessage& said) {
     case Said::kReleaseControl:
     case Said::kGiveControl:
     case Said::kRequestKeyFrame:
+    case Said::kRequestDepth:
         return false;
     default:
         return true;
@@ -34,6 +35,7 @@ bool shows(const v1::ClientMessage& said) {
 }
 
 constexpr std::array kCounts = {&Counts::frames,           &Counts::frame_bytes,
+                                &Counts::depth_meshes,     &Counts::depth_bytes,
                                 &Counts::server_dropped,   &Counts::client_dropped,
                                 &Counts::commands,         &Counts::commands_skipped,
                                 &Counts::commands_unshown, &Counts::errors};
@@ -183,6 +185,13 @@ void ViewerMeter::onCommandSkipped(uint64_t seq, TimePoint due) {
         if (!paused_) {
             unseen_.push_back({seq, due});
         }
+    }
+}
+
+void ViewerMeter::onDepth(size_t bytes) {
+    if (counting_) {
+        ++measured_.depth_meshes;
+        measured_.depth_bytes += bytes;
     }
 }
 

@@ -91,7 +91,9 @@ struct PictureSize {
 // What adds up, of several viewers and over time.
 struct Counts {
     uint64_t frames = 0;
-    uint64_t frame_bytes = 0;      // encoded pictures and their headers
+    uint64_t frame_bytes = 0; // encoded pictures and their headers
+    uint64_t depth_meshes = 0;
+    uint64_t depth_bytes = 0;      // of these, with their headers
     uint64_t server_dropped = 0;   // replaced by newer ones before sending
     uint64_t client_dropped = 0;   // arrived, and never painted
     uint64_t commands = 0;         // sent, but acknowledgements
@@ -138,6 +140,7 @@ class ViewerMeter {
     // an echo of what was never sent.
     [[nodiscard]] Result<void>
     onFrame(const v1::FrameHeader& header, size_t bytes, uint64_t sent_seq, TimePoint now);
+    void onDepth(size_t bytes);
     // A newer frame was there before this one was painted.
     void onFrameDropped();
     void onError(const v1::Error& error);

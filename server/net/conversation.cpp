@@ -531,6 +531,7 @@ std::optional<Outgoing> Conversation::depthMessage() {
     // It lives as long as the mesh.
     message.body = SharedBytes(frame.depth, &frame.depth->bytes);
     depth_bytes_ += message.size();
+    metrics_->depthSent(message.size());
     return message;
 }
 

@@ -139,6 +139,8 @@ struct Metrics::Impl {
     std::atomic<uint64_t> replaced{0};
     const std::shared_ptr<FrameFates> fates = std::make_shared<FrameFates>();
     Counter& bytes = counter("froxel_sent_bytes_total", "Bytes of sent frames and messages.");
+    Counter& depth_bytes =
+        counter("froxel_depth_bytes_total", "Bytes of depth sent with frames, part of all bytes.");
     Counter& redraws = counter("froxel_light_list_redraws_total",
                                "Frames drawn again because their lists outgrew their memory.");
     Counter& kept = counter("froxel_frames_kept_total",
@@ -258,6 +260,10 @@ void Metrics::sessionOpened() {
 
 void Metrics::sessionClosed() {
     impl_->viewers.Decrement();
+}
+
+void Metrics::depthSent(size_t bytes) {
+    impl_->depth_bytes.Increment(static_cast<double>(bytes));
 }
 
 void Metrics::frameSent(const FrameRecord& record) {

@@ -51,6 +51,7 @@ class Metrics {
     void sessionClosed();
     // A picture on its way to the socket, all stages known.
     void frameSent(const session::FrameRecord& record);
+    void depthSent(size_t bytes);
     // A picture that a newer one replaced unsent.
     void frameDropped();
     void bytesSent(size_t count);

@@ -103,6 +103,23 @@ TEST_F(Load, ThreeViewers_Orbit_GetFramesAndLatencies) {
     EXPECT_EQ(report["all"]["largest_picture"]["width_px"], 64);
 }
 
+TEST_F(Load, Depth_ComesToThoseWhoAskForIt) {
+    const TestServer server;
+    const auto one = [this, &server](std::vector<std::string> options) {
+        options.insert(options.end(), {"--viewers", "1", "--seconds", "1", "--ramp", "0"});
+        return measure(server.port(), options)["each"][0];
+    };
+    const Json with = one({"--depth"});
+    EXPECT_EQ(with["failure"], nullptr);
+    EXPECT_GT(with["depth_meshes"], 1) << "of a camera that circles";
+    EXPECT_LE(with["depth_meshes"], with["frames"].get<uint64_t>() + 1);
+    EXPECT_GT(with["depth_bytes"], with["depth_meshes"]);
+    EXPECT_GT(with["latency_ms"]["median"], 0);
+    const Json without = one({});
+    EXPECT_EQ(without["depth_meshes"], 0);
+    EXPECT_GT(without["frames"], 0);
+}
+
 TEST_F(Load, Server_ThatFreezes_BreaksTheLatencyBound) {
     TestServer server;
     const Relay relay({.port = server.port()});

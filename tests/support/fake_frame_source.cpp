@@ -1,8 +1,10 @@
 #include "support/fake_frame_source.h"
 
+#include "core/depth_mesh.h"
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <utility>
 #include <vector>
@@ -137,7 +139,7 @@ class FakeView final : public stream::ViewSource {
         device_->addBegun(settings);
         device_->formed_count += encoding.becomes ? 1U : 0U;
         waiting_ = device_->piece_count;
-        frames_.push_back({settings, encoding.outputs.has(Output::kRadiance), waiting_});
+        frames_.push_back({settings, encoding.outputs, waiting_});
         const auto estimate = device_->estimate.load();
         return FrameWork{estimate.count() > 0 ? estimate : device_->frame_time.load(), limit_share,
                          waiting_};
@@ -176,7 +178,7 @@ class FakeView final : public stream::ViewSource {
             return stream::Collected{};
         }
         const settings::ViewSettings settings = frame.settings;
-        const bool radiance = frame.radiance;
+        const Outputs outputs = frame.outputs;
         frames_.pop_front();
         device_->addDone(settings.size);
         if (settings.lights.count > device_->max_lights) {
@@ -186,13 +188,13 @@ class FakeView final : public stream::ViewSource {
             --device_->again_count;
             return stream::Collected{stream::Collected::Outcome::kAgain};
         }
-        return stream::Collected{stream::Collected::Outcome::kFrame, picture(settings, radiance)};
+        return stream::Collected{stream::Collected::Outcome::kFrame, picture(settings, outputs)};
     }
 
   private:
     struct Frame {
         settings::ViewSettings settings;
-        bool radiance = false;
+        Outputs outputs;
         uint32_t piece_count = 1;
         uint32_t on_device = 0;
         uint32_t done = 0;
@@ -200,7 +202,7 @@ class FakeView final : public stream::ViewSource {
     };
 
     [[nodiscard]] stream::SourceFrame picture(const settings::ViewSettings& settings,
-                                              bool with_radiance) {
+                                              Outputs outputs) {
         const settings::Size size = settings.size;
         auto pixels = std::make_shared<std::vector<std::byte>>(
             size_t{4} * size.width_px * size.height_px, shadeOf(settings));
@@ -210,17 +212,25 @@ class FakeView final : public stream::ViewSource {
                 value = static_cast<std::byte>(96U + (noise_ >> 26U));
             }
         }
-        auto radiance =
-            std::make_shared<std::vector<float>>(with_radiance ? pixels->size() : 0, 0.5F);
-        const PixelView view{pixels->data(), size.width_px, size.height_px,
-                             size_t{4} * size.width_px, with_radiance ? radiance->data() : nullptr};
+        PixelView view{pixels->data(), size.width_px, size.height_px, size_t{4} * size.width_px};
+        auto radiance = std::make_shared<std::vector<float>>(pixels->size(), 0.5F);
+        // As far away as the eye is from the plane x = 0, and a metre.
+        auto mesh = std::make_shared<std::vector<float>>(
+            DepthMeshSize(size.width_px, size.height_px).vertexCount(),
+            1 / static_cast<float>(1 + std::abs(settings.camera.eye_world.x)));
+        for (const auto& [output, floats] :
+             {std::pair(Output::kRadiance, radiance), std::pair(Output::kDepthMesh, mesh)}) {
+            view.outputs[static_cast<size_t>(output)] =
+                outputs.has(output) ? floats->data() : nullptr;
+        }
         ++device_->live_leases;
         ++*own_leases_;
         stream::SourceFrame frame;
-        frame.pixels = PixelLease(view, [pixels, radiance, device = device_, own = own_leases_] {
-            --device->live_leases;
-            --*own;
-        });
+        frame.pixels =
+            PixelLease(view, [pixels, radiance, mesh, device = device_, own = own_leases_] {
+                --device->live_leases;
+                --*own;
+            });
         frame.stats.passes = {{"fake", 1.0}};
         frame.stats.gpu_us = std::max(1.0, Microseconds(device_->timeOf(settings)).count());
         fillStats(frame.stats, settings);

@@ -9,6 +9,8 @@ const kStageSamples = 64;
 const kHistory = 150;
 /** A longer pause is a still picture, not a slow one: the server sends only what changed. */
 const kIdleMs = 2_000;
+/** Fewer say little of the slowest. */
+const kTellingSamples = 20;
 /** After so long without a command, the latency of the last ones tells nothing of now. */
 const kOldMs = 10_000;
 
@@ -101,6 +103,13 @@ export class Stats {
   restart(): void {
     this.latency.restart();
     this.lastPaintMs = null;
+  }
+
+  /** From input to picture; null where too few commands of late tell. */
+  latencyP95Ms(nowMs: number): number | null {
+    const { window } = this.latency;
+    const tells = nowMs - this.lastSampleMs < kOldMs && window.count >= kTellingSamples;
+    return tells ? window.percentile(0.95) : null;
   }
 
   figures(nowMs: number): Figures {

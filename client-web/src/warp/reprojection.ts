@@ -18,7 +18,7 @@ export interface ReprojectionEnvironment {
   readonly surface: Surface;
   /** What the viewer wants to see now; null: what the server shows, as of somebody else's camera. */
   readonly wanted: () => Wanted | null;
-  readonly nextFrame: (action: () => void) => void;
+  readonly nextFrame: (action: (nowMs: number) => void) => void;
 }
 
 interface Shown {
@@ -34,10 +34,13 @@ const kStillPx = 0.05;
 /** Of the view that the picture does not have. Beyond, another picture is better waited for. */
 const kMostOutside = 0.6;
 const kProbes = 7; // across and down the view
+/** The server has no more pictures on their way than it has credit for: eight, and one that waits. */
+const kMostMeshes = 16;
 
 export class Reprojection {
-  private mesh: DepthMesh | null = null; // newest
+  private meshes: DepthMesh[] = []; // of the picture that is shown and of those on their way
   private shown: Shown | null = null; // null: it cannot be shown from another camera
+  private active = true;
   private pending = false;
   private drawnFor: readonly [Shown | null, Wanted | null] = [null, null];
 
@@ -45,7 +48,8 @@ export class Reprojection {
 
   /** Of pictures that come. */
   setMesh(mesh: DepthMesh): void {
-    this.mesh = mesh;
+    this.meshes.push(mesh);
+    if (this.meshes.length > kMostMeshes) this.meshes.shift();
   }
 
   /** The picture was painted; the bitmap is this one's to close. Draws at once. */
@@ -66,18 +70,26 @@ export class Reprojection {
     });
   }
 
+  /** False: pictures show as they come. */
+  setActive(active: boolean): void {
+    this.active = active;
+    this.drawnFor = [null, null];
+    this.draw();
+  }
+
   /** What comes next is of another session or scene. */
   restart(): void {
     this.shown?.bitmap.close();
     this.shown = null;
-    this.mesh = null;
+    this.meshes = [];
     this.env.surface.show(false);
   }
 
   private shownOf(bitmap: ImageBitmap, header: FrameHeader): Shown | null {
-    const { mesh } = this;
     const { width, height, depthMesh, pictureCamera } = header;
-    if (!pictureCamera || depthMesh === 0n || mesh?.number !== depthMesh) return null;
+    const mesh = this.meshes.find(({ number }) => number === depthMesh);
+    if (!pictureCamera || !mesh) return null;
+    this.meshes = this.meshes.filter(({ number }) => number >= depthMesh);
     if (mesh.columns !== verticesAlong(width) || mesh.rows !== verticesAlong(height)) return null;
     const camera = cameraOfPicture(pictureCamera);
     return camera && { bitmap, camera, size: { width, height }, mesh, uploaded: false };
@@ -90,7 +102,7 @@ export class Reprojection {
     if (this.drawnFor[0] === shown && this.drawnFor[1] === wanted) return;
     this.drawnFor = [shown, wanted];
     const to = wanted && warpCameraOf(wanted);
-    if (!shown || !to || !hasShapeOf(shown.size, wanted)) {
+    if (!this.active || !shown || !to || !hasShapeOf(shown.size, wanted)) {
       surface.show(false);
       return;
     }

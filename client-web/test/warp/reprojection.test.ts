@@ -69,7 +69,7 @@ beforeEach(() => {
   frames = new FakeFrames();
   wanted = view(0);
   openBitmaps = 0;
-  warp = new Reprojection({ surface, wanted: () => wanted, nextFrame: frames.next });
+  warp = new Reprojection({ surface, wanted: () => wanted, nextFrame: (action) => frames.next(() => action(0)) });
   warp.setMesh(kMesh);
 });
 
@@ -99,6 +99,17 @@ describe('Reprojection', () => {
     expect(openBitmaps).toBe(1);
   });
 
+  it('MeshesOfPicturesOnTheirWay_WaitForThem', () => {
+    for (const number of [5n, 6n]) warp.setMesh({ ...kMesh, number });
+    warp.setPicture(bitmap(), header({ depthMesh: 5n }));
+    moveTo(view(0.1));
+    expect(surface.draws).toBe(1);
+    warp.setPicture(bitmap(), header({ depthMesh: 6n }));
+    expect(surface.draws).toBe(2);
+    warp.setPicture(bitmap(), header({ depthMesh: 5n })); // is not wanted any more
+    expect(surface.visible).toBe(false);
+  });
+
   it('NothingNew_IsNotDrawnAgain', () => {
     warp.setPicture(bitmap(), header());
     moveTo(view(0.1));
@@ -109,7 +120,7 @@ describe('Reprojection', () => {
 
   it.each([
     ['NoDepth', header({ depthMesh: 0n })],
-    ['AnotherMesh', header({ depthMesh: 5n })],
+    ['AnotherMesh', header({ depthMesh: 9n })],
     ['AnotherSize', header({ width: 30 })],
     ['NoCamera', bare()],
     ['BrokenCamera', from(NaN)],

@@ -55,6 +55,7 @@ TEST_F(DepthTest, AskedFor_ComesBeforeItsPicture_AndOnceForAllThatHaveIt) {
     const v1::FrameHeader header = nextFrame();
     EXPECT_EQ(header.depth_mesh(), 1U);
     EXPECT_TRUE(header.has_picture_camera());
+    EXPECT_EQ(metrics_->text().find("froxel_depth_bytes_total 0\n"), std::string::npos);
     ack(1);
     frameWithDepth(2, 1);
     EXPECT_EQ(nextFrame().frame_id(), 2U);
