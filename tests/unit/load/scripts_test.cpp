@@ -190,9 +190,10 @@ TEST(Scripts, Storm_SaysEverySetting_AllAccepted) {
     std::erase_if(all, [&](const std::string& field) { return said.contains(field); });
     // What the viewer says itself, what is about rooms and pausing, and what is refused where there
     // is no such light or scene.
-    const auto others = testing::MatchesRegex("(seq|client_time_us|ack.*|hello.*|give_control.*|"
-                                              "pause.*|pick_light.*|select_scene.scene|"
-                                              "set_placed_lights.remove)");
+    const auto others =
+        testing::MatchesRegex("(seq|client_time_us|ack.*|hello.*|give_control.*|"
+                              "pause.*|request_depth.*|pick_light.*|select_scene.scene|"
+                              "set_placed_lights.remove)");
     EXPECT_THAT(all, testing::Each(others));
 }
 
