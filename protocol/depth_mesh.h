@@ -22,8 +22,9 @@ inline constexpr uint32_t kMaxDepthBits = 12;
 
 struct CodedDepthMesh {
     DepthMeshSize size;
-    uint32_t bits = 0;        // of a step's number
-    double nearest_per_m = 0; // inverse distance of the last step; 0: nothing is there
+    uint32_t cell_px = kDepthCell_px; // from one vertex to the next
+    uint32_t bits = 0;                // of a step's number
+    double nearest_per_m = 0;         // inverse distance of the last step; 0: nothing is there
     std::vector<std::byte> bytes{};
 
     bool operator==(const CodedDepthMesh&) const = default;

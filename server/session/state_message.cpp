@@ -456,6 +456,7 @@ v1::DepthMeshHeader makeDepthMeshHeader(const protocol::CodedDepthMesh& mesh, ui
     header.set_rows(mesh.size.rows);
     header.set_bits(mesh.bits);
     header.set_nearest_per_m(mesh.nearest_per_m);
+    header.set_cell_px(mesh.cell_px);
     return header;
 }
 

@@ -11,8 +11,6 @@
 namespace froxel::stream {
 namespace {
 
-constexpr uint32_t kDepthBits = 10;
-
 // Whether the device made a file of it, or was to.
 bool isFile(const PixelView& view) {
     return view.data == nullptr && !view.planes;
@@ -20,6 +18,16 @@ bool isFile(const PixelView& view) {
 
 settings::Codec codecOf(const DrawnFrame& frame) {
     return frame.record.delivered.encoding.codec;
+}
+
+// What a mesh may take: about a twentieth of a JPEG, and of video, which is small itself, a sixth.
+struct MeshQuality {
+    uint32_t cell_px = 0;
+    uint32_t bits = 0;
+};
+MeshQuality meshQualityOf(settings::Codec codec) {
+    return settings::rowOf(codec).frames_depend ? MeshQuality{2 * kDepthCell_px, 8}
+                                                : MeshQuality{kDepthCell_px, 9};
 }
 
 } // namespace
@@ -67,9 +75,19 @@ void FramePipeline::push(DrawnFrame frame) {
 void FramePipeline::keepDepth() {
     const PixelView& pixels = encoding_->pixels.view();
     inverse_distances_.clear();
-    if (const float* vertices = pixels.output(Output::kDepthMesh)) {
-        const DepthMeshSize mesh(pixels.width_px, pixels.height_px);
-        inverse_distances_.assign(vertices, vertices + mesh.vertexCount());
+    const float* const vertices = pixels.output(Output::kDepthMesh);
+    if (vertices == nullptr) {
+        return;
+    }
+    const DepthMeshSize drawn(pixels.width_px, pixels.height_px);
+    const uint32_t cells = meshQualityOf(codecOf(*encoding_)).cell_px / kDepthCell_px;
+    const DepthMeshSize kept(pixels.width_px, pixels.height_px, cells * kDepthCell_px);
+    inverse_distances_.reserve(kept.vertexCount());
+    for (uint32_t y = 0; y < kept.rows; ++y) {
+        const size_t row = size_t{std::min(cells * y, drawn.rows - 1)} * drawn.columns;
+        for (uint32_t x = 0; x < kept.columns; ++x) {
+            inverse_distances_.push_back(vertices[row + std::min(cells * x, drawn.columns - 1)]);
+        }
     }
 }
 
@@ -78,8 +96,11 @@ void FramePipeline::keepDepth() {
 void FramePipeline::codeDepth() {
     session::FrameRecord& record = encoding_->record;
     if (!inverse_distances_.empty()) {
+        const MeshQuality quality = meshQualityOf(codecOf(*encoding_));
         auto coded = protocol::encodeDepthMesh(
-            inverse_distances_, DepthMeshSize(record.width_px, record.height_px), kDepthBits);
+            inverse_distances_, DepthMeshSize(record.width_px, record.height_px, quality.cell_px),
+            quality.bits);
+        coded.cell_px = quality.cell_px;
         if (!depth_ || *depth_ != coded) {
             depth_ = std::make_shared<const protocol::CodedDepthMesh>(std::move(coded));
             ++depth_number_;

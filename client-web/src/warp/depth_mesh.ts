@@ -2,18 +2,19 @@
 
 import type { DepthMeshHeader } from '../gen/froxel/v1/server_pb';
 
-/** Pixels from a vertex to the next. */
-export const kCellPx = 8;
-
 const kMinBits = 6;
 const kMaxBits = 12;
-const kMostSide = 4096 / kCellPx + 1; // of the largest picture
+const kMinCellPx = 8;
+const kMaxCellPx = 64;
+const kMostSide = 4096 / kMinCellPx + 1; // of the largest picture
 const kMostNibbles = 7;
 
 export interface DepthMesh {
   readonly number: bigint;
   readonly columns: number;
   readonly rows: number;
+  /** Pixels from a vertex to the next. */
+  readonly cellPx: number;
   /** By row: steps of inverse distance, 0 where nothing is. */
   readonly steps: Uint16Array<ArrayBuffer>;
   /** Inverse distance along the view axis that a step adds, in 1/m. */
@@ -23,7 +24,7 @@ export interface DepthMesh {
   readonly medianPerM: number;
 }
 
-export const verticesAlong = (sidePx: number): number => Math.ceil((sidePx - 1) / kCellPx) + 1;
+export const verticesAlong = (sidePx: number, cellPx: number): number => Math.ceil((sidePx - 1) / cellPx) + 1;
 
 /** A mesh that is not what the protocol says; the text is one line for a person. */
 export class DepthMeshError extends Error {}
@@ -60,11 +61,14 @@ class Nibbles {
 
 /** Throws DepthMeshError. */
 export function decodeDepthMesh(header: DepthMeshHeader, bytes: Uint8Array): DepthMesh {
-  const { number, columns, rows, bits, nearestPerM } = header;
+  const { number, columns, rows, bits, nearestPerM, cellPx } = header;
   const size = `depth mesh of ${columns}x${rows} vertices`;
   const isSide = (side: number): boolean => side >= 1 && side <= kMostSide;
   if (!isSide(columns) || !isSide(rows)) {
     throw new DepthMeshError(`${size}; expected 1 to ${kMostSide} each`);
+  }
+  if (cellPx < kMinCellPx || cellPx > kMaxCellPx) {
+    throw new DepthMeshError(`${size}: they are ${cellPx} pixels apart; expected ${kMinCellPx} to ${kMaxCellPx}`);
   }
   if (bits < kMinBits || bits > kMaxBits) {
     throw new DepthMeshError(`${size}: it has ${bits} bits; expected ${kMinBits} to ${kMaxBits}`);
@@ -77,7 +81,7 @@ export function decodeDepthMesh(header: DepthMeshHeader, bytes: Uint8Array): Dep
   const problem = decodeSteps(new Nibbles(bytes), columns, top, steps);
   if (problem) throw new DepthMeshError(`${size}: ${problem}`);
   const perStep = nearestPerM / top;
-  return { number, columns, rows, steps, perStep, nearestPerM, medianPerM: median(steps) * perStep };
+  return { number, columns, rows, cellPx, steps, perStep, nearestPerM, medianPerM: median(steps) * perStep };
 }
 
 const kSamples = 512;

@@ -90,7 +90,8 @@ export class Reprojection {
     const mesh = this.meshes.find(({ number }) => number === depthMesh);
     if (!pictureCamera || !mesh) return null;
     this.meshes = this.meshes.filter(({ number }) => number >= depthMesh);
-    if (mesh.columns !== verticesAlong(width) || mesh.rows !== verticesAlong(height)) return null;
+    const { columns, rows, cellPx } = mesh;
+    if (columns !== verticesAlong(width, cellPx) || rows !== verticesAlong(height, cellPx)) return null;
     const camera = cameraOfPicture(pictureCamera);
     return camera && { bitmap, camera, size: { width, height }, mesh, uploaded: false };
   }

@@ -2,7 +2,7 @@
 // its depth.
 
 import type { Size } from '../core/size';
-import { kCellPx, type DepthMesh } from './depth_mesh';
+import type { DepthMesh } from './depth_mesh';
 
 /** The part of WarpSurface that Reprojection uses. */
 export interface Surface {
@@ -23,11 +23,12 @@ uniform mat4 warp;
 uniform ivec2 grid;
 uniform vec2 size;
 uniform float per_step;
+uniform float cell;
 in float step_number;
 out vec2 share;
 void main() {
   ivec2 at = ivec2(gl_VertexID % (grid.x + 2), gl_VertexID / (grid.x + 2)) - 1;
-  vec2 pixel = min(vec2(clamp(at, ivec2(0), grid - 1)) * ${kCellPx}.0, size - 1.0) + 0.5;
+  vec2 pixel = min(vec2(clamp(at, ivec2(0), grid - 1)) * cell, size - 1.0) + 0.5;
   pixel += size * (vec2(equal(at, grid)) - vec2(lessThan(at, ivec2(0))));
   share = pixel / size;
   gl_Position = warp * vec4(share.x * 2.0 - 1.0, 1.0 - share.y * 2.0, step_number * per_step, 1.0);
@@ -117,6 +118,7 @@ export class WarpSurface implements Surface {
     const { gl, uniform } = this.made;
     gl.bufferData(gl.ARRAY_BUFFER, withRing(mesh), gl.STREAM_DRAW);
     gl.uniform1f(uniform('per_step'), mesh.perStep);
+    gl.uniform1f(uniform('cell'), mesh.cellPx);
     const [width, height] = [mesh.columns + 2, mesh.rows + 2];
     if (this.mesh?.width === width && this.mesh.height === height) return;
     this.mesh = { width, height };

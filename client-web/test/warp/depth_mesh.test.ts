@@ -8,7 +8,7 @@ const bytesOf = (hex: string): Uint8Array =>
   new Uint8Array(hex.match(/../g)?.map((pair) => parseInt(pair, 16)) ?? []);
 
 function header(change: Partial<DepthMeshHeader> = {}): DepthMeshHeader {
-  return create(DepthMeshHeaderSchema, { number: 3n, columns: 3, rows: 2, bits: 8, nearestPerM: 0.5, ...change });
+  return create(DepthMeshHeaderSchema, { number: 3n, columns: 3, rows: 2, bits: 8, nearestPerM: 0.5, cellPx: 8, ...change });
 }
 
 describe('decodeDepthMesh', () => {
@@ -28,6 +28,8 @@ describe('decodeDepthMesh', () => {
   it.each([
     ['sides', { columns: 0 }, '06', /0x2 vertices; expected 1 to 513/],
     ['a huge side', { rows: 514 }, '06', /3x514 vertices; expected/],
+    ['close vertices', { cellPx: 7 }, '06', /they are 7 pixels apart; expected 8 to 64/],
+    ['far vertices', { cellPx: 65 }, '06', /they are 65 pixels apart/],
     ['few bits', { bits: 5 }, '06', /it has 5 bits; expected 6 to 12/],
     ['many bits', { bits: 13 }, '06', /it has 13 bits/],
     ['no number', { nearestPerM: NaN }, '06', /nearest inverse distance is NaN/],
@@ -62,7 +64,8 @@ describe('decodeDepthMesh', () => {
     expect(read).toBeGreaterThan(0);
   });
 
-  it('Vertices_AreAtEveryEighthPixelAndTheLast', () => {
-    expect([1, 2, 8, 9, 10, 1280, 720].map(verticesAlong)).toEqual([1, 2, 2, 2, 3, 161, 91]);
+  it('Vertices_AreAtEverySoManiethPixelAndTheLast', () => {
+    expect([1, 2, 8, 9, 10, 1280, 720].map((side) => verticesAlong(side, 8))).toEqual([1, 2, 2, 2, 3, 161, 91]);
+    expect(verticesAlong(1280, 16)).toBe(81);
   });
 });

@@ -12,6 +12,7 @@ const kMesh: DepthMesh = {
   number: 4n,
   columns: 3,
   rows: 2,
+  cellPx: 8,
   steps: new Uint16Array([1, 1, 1, 1, 1, 1]),
   perStep: 0.2,
   nearestPerM: 0.2,

@@ -153,7 +153,27 @@ TEST_F(FramePipelineTest, Depth_IsNumberedAnewOnlyWhereItDiffers) {
     EXPECT_EQ(numbers, (std::vector<uint64_t>{0, 1, 1, 2, 2, 0, 0}));
     const auto& mesh = *sink_->frames()[3].depth;
     EXPECT_EQ(mesh.size, kMesh);
-    EXPECT_EQ(protocol::decodeDepthMesh(mesh.bytes, mesh.size, mesh.bits).value()[2], 512);
+    EXPECT_EQ(protocol::decodeDepthMesh(mesh.bytes, mesh.size, mesh.bits).value()[2], 256);
+}
+
+TEST_F(FramePipelineTest, DepthOfVideo_HasEverySecondVertex) {
+    encode::EncodePool pool(1, 4);
+    const auto pipeline = makePipeline(pool);
+    const DepthMeshSize drawn(kSide, kSide); // 3 x 3, at pixels 0, 8 and 15
+    const std::vector<float> vertices = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    PixelView view{pixels_.data(), kSide, kSide, size_t{4} * kSide};
+    view.outputs[static_cast<size_t>(Output::kDepthMesh)] = vertices.data();
+    DrawnFrame frame = frameOf(1, view);
+    frame.record.width_px = frame.record.height_px = kSide;
+    frame.record.delivered.encoding.codec = settings::Codec::kVp9;
+    pipeline->push(std::move(frame));
+    ASSERT_TRUE(sink_->waitForFrames(1));
+    const auto& mesh = *sink_->frames()[0].depth;
+    EXPECT_EQ(drawn.vertexCount(), vertices.size());
+    EXPECT_EQ(mesh.cell_px, 16U);
+    EXPECT_EQ(mesh.size, DepthMeshSize(kSide, kSide, 16)); // at pixels 0 and 15
+    const auto steps = protocol::decodeDepthMesh(mesh.bytes, mesh.size, mesh.bits).value();
+    EXPECT_EQ(steps, (std::vector<uint16_t>{28, 85, 198, 255}));
 }
 
 TEST_F(FramePipelineTest, Push_FileBehindAPictureInTheEncoder_LeavesAfterIt) {
