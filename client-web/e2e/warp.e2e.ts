@@ -54,6 +54,24 @@ it('ManyMoves_EndAtTheServersPicture', async () => {
   expect(viewer.depthCount).toBeGreaterThan(1);
 });
 
+it('LostGraphicsDevice_LeavesThePictureAsItComes', async () => {
+  const viewer = await pages.open(kStill);
+  await until('depth', () => viewer.depthCount > 0);
+  await viewer.settled();
+  await viewer.page.evaluate(() => {
+    const canvas = document.querySelector<HTMLCanvasElement>('#warp');
+    canvas?.getContext('webgl2')?.getExtension('WEBGL_lose_context')?.loseContext();
+  });
+  await until('no depth wanted any more', () =>
+    viewer.sent.some(({ body }) => body.case === 'requestDepth' && !body.value.wanted),
+  );
+  const before = await viewer.thumbnail();
+  await drag(viewer, 60);
+  expect(await isWarped(viewer)).toBe(false);
+  await viewer.page.mouse.up();
+  expect(difference(before, await viewer.settled())).toBeGreaterThan(1);
+});
+
 it('TurnedOff_AsksForNoDepth', async () => {
   const viewer = await pages.open(`?reprojection=off${kStill}`);
   await viewer.settled();

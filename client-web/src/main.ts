@@ -92,7 +92,7 @@ const presenter = new Presenter({
     }
     if (banner.pictureShown(header)) {
       setTimeout(prefetch, kPrefetchMs);
-      if (wantsWarp) void warp.want().then(askForDepth);
+      if (wantsWarp && store.state.server?.offersDepth) void warp.want().then(askForDepth);
       if (mayControl(store.state.room)) void showDragHint();
     }
   },

@@ -27,7 +27,11 @@ export interface WarpEnvironment extends Omit<ReprojectionEnvironment, 'surface'
 
 /** Throws where the browser has no WebGL2. */
 export function makeWarp(canvas: HTMLCanvasElement, env: WarpEnvironment): Warp {
-  const surface = WarpSurface.on(canvas);
+  let lost = false;
+  const surface = WarpSurface.on(canvas, () => {
+    lost = true;
+    follow();
+  });
   if (!surface) throw new Error('no WebGL2');
   const freshness = new Freshness();
   const nextFrame: WarpEnvironment['nextFrame'] = (action) =>
@@ -36,6 +40,11 @@ export function makeWarp(canvas: HTMLCanvasElement, env: WarpEnvironment): Warp 
       action(nowMs);
     });
   const reprojection = new Reprojection({ surface, wanted: env.wanted, nextFrame });
+  const isWanted = (): boolean => !lost && !freshness.fresh;
+  const follow = (): void => {
+    reprojection.setActive(isWanted());
+    env.wishChanged();
+  };
   return {
     setDepth: ({ header, bytes }) => {
       try {
@@ -49,12 +58,10 @@ export function makeWarp(canvas: HTMLCanvasElement, env: WarpEnvironment): Warp 
     cameraMoved: () => reprojection.cameraMoved(),
     restart: () => reprojection.restart(),
     noteLatency: (p95Ms) => {
-      if (!freshness.noteLatency(p95Ms)) return;
-      reprojection.setActive(!freshness.fresh);
-      env.wishChanged();
+      if (freshness.noteLatency(p95Ms)) follow();
     },
     get wantsDepth() {
-      return !freshness.fresh;
+      return isWanted();
     },
   };
 }

@@ -80,12 +80,13 @@ export class WarpSurface implements Surface {
   private picture: Size | null = null;
   private indexCount = 0;
 
-  /** Null: this browser has no WebGL2 that would draw it. */
-  static on(canvas: HTMLCanvasElement): WarpSurface | null {
+  /** Null: this browser has no WebGL2 that would draw it. `lost`: the device that it draws on is gone. */
+  static on(canvas: HTMLCanvasElement, lost: () => void): WarpSurface | null {
     const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, powerPreference: 'high-performance' });
     const program = gl && programOf(gl);
     if (!program) return null;
     gl.useProgram(program);
+    canvas.addEventListener('webglcontextlost', lost, { once: true });
     return new WarpSurface(canvas, { gl, uniform: (name) => gl.getUniformLocation(program, name) });
   }
 
