@@ -114,7 +114,10 @@ export class Reprojection {
       surface.show(false);
       return;
     }
-    if (outsideShare(warpMatrix(to, shown.camera, aspect, nearest), medianPerM) > kMostOutside) return;
+    if (outsideShare(warpMatrix(to, shown.camera, aspect, nearest), medianPerM) > kMostOutside) {
+      if (!shown.uploaded) surface.show(false); // newer than what was warped
+      return;
+    }
     if (!shown.uploaded) {
       shown.uploaded = true;
       surface.setPicture(shown.bitmap);

@@ -159,6 +159,8 @@ describe('Reprojection', () => {
     moveTo(view(0.1));
     moveTo(view(50));
     expect([surface.visible, surface.draws]).toEqual([true, 1]);
+    warp.setPicture(bitmap(), from(20)); // is nearer, and not near
+    expect([surface.visible, surface.draws]).toEqual([false, 1]);
   });
 
   it('Restart_LetsGoOfPictureAndMesh', () => {
