@@ -5,7 +5,7 @@ import { expect, it } from 'vitest';
 import { usePages } from './pages';
 import { difference, until, type Viewer } from './viewer';
 
-const kLit = '#animate=0&scene_lights=1&lights=200';
+const kLit = '#animate=0&scene_lights=1&lights=200&refine=none'; // whatever the link seems to carry
 const kStill = `${kLit}&size=640x360`;
 const pages = usePages();
 

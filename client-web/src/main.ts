@@ -92,7 +92,6 @@ const presenter = new Presenter({
     }
     if (banner.pictureShown(header)) {
       setTimeout(prefetch, kPrefetchMs);
-      if (wantsWarp && store.state.server?.offersDepth) void warp.want().then(askForDepth);
       if (mayControl(store.state.room)) void showDragHint();
     }
   },
@@ -353,6 +352,9 @@ async function makeSearch(): Promise<SearchCard> {
 
 /** Nobody waits for these when they are wanted, and they open when the server is gone, too. */
 function prefetch(): void {
+  // Not sooner: a graphics context takes the page some tenths of a second, and an acknowledgement that
+  // is as late lets the link seem slow.
+  if (wantsWarp && store.state.server?.offersDepth) void warp.want().then(askForDepth);
   handles.ahead();
   panel.ahead();
   looksCard.ahead();
