@@ -20,7 +20,7 @@ settings::Codec codecOf(const DrawnFrame& frame) {
     return frame.record.delivered.encoding.codec;
 }
 
-// What a mesh may take: about a twentieth of a JPEG, and of video, which is small itself, a sixth.
+// What a mesh may take: about a twentieth of a JPEG, and of video, which is small itself, a fifth.
 struct MeshQuality {
     uint32_t cell_px = 0;
     uint32_t bits = 0;
