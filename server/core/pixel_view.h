@@ -33,7 +33,7 @@ struct PixelView {
     uint32_t output_samples = 1;
     // In place of `data`, made on the device: planes, or the picture as this file.
     std::optional<PlaneView> planes = {};
-    std::span<const std::byte> jpeg = {};
+    std::span<const std::byte> jpeg = {}; // empty: there was no room for it
 
     [[nodiscard]] const float* output(Output which) const {
         return outputs[static_cast<size_t>(which)];

@@ -27,8 +27,9 @@ class Encoder {
     Encoder& operator=(const Encoder&) = delete;
 
     // `part` is one of cut()'s. `key` asks for a frame that decodes by itself; `drawn_at` is for
-    // rates over time. Errors: kInvalidArgument for an empty or inconsistent view or options
-    // outside their ranges; kIo with the library's text otherwise.
+    // rates over time. A picture that is a file of this codec already is copied. Errors:
+    // kInvalidArgument for an empty or inconsistent view or options outside their ranges; kIo with
+    // the library's text otherwise, and for a file that the device had no room for.
     [[nodiscard]] virtual Result<EncodedPart> encode(const PixelView& part,
                                                      const settings::Encoding& encoding,
                                                      bool key,

@@ -40,12 +40,27 @@ Result<void> check(const PixelView& pixels, const settings::Encoding& encoding) 
     return {};
 }
 
+// Whether the device made a file of it, or was to.
+bool isFile(const PixelView& pixels) {
+    return pixels.data == nullptr && !pixels.planes && pixels.width_px > 0;
+}
+
+Result<EncodedPart> copyOfFile(const PixelView& pixels) {
+    if (pixels.jpeg.empty()) {
+        return Error{ErrorCode::kIo, "the JPEG is larger than there is room for"};
+    }
+    return EncodedPart{{pixels.jpeg.begin(), pixels.jpeg.end()}};
+}
+
 class StripedJpegEncoder final : public Encoder {
   public:
     [[nodiscard]] Result<EncodedPart> encode(const PixelView& part,
                                              const settings::Encoding& encoding,
                                              bool /*key*/,
                                              TimePoint /*drawn_at*/) override {
+        if (isFile(part)) {
+            return copyOfFile(part);
+        }
         auto bytes = jpeg_.encode(part, encoding);
         if (!bytes) {
             return bytes.error();
@@ -54,7 +69,7 @@ class StripedJpegEncoder final : public Encoder {
     }
     [[nodiscard]] std::vector<PixelView>
     cut(const PixelView& pixels, const settings::Encoding& encoding, size_t wanted) const override {
-        return cutStripes(pixels, encoding.chroma, wanted);
+        return isFile(pixels) ? std::vector{pixels} : cutStripes(pixels, encoding.chroma, wanted);
     }
     [[nodiscard]] Result<std::vector<std::byte>> join(std::span<const std::vector<std::byte>> parts,
                                                       uint32_t height_px) const override {

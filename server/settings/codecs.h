@@ -39,7 +39,7 @@ struct CodecRow {
     bool announced = false;     // only to clients whose Hello.codecs lists it; else all decode it
     bool frames_depend = false; // on those before them, back to a key frame: video
     bool lossless = false;      // and slow, so that it waits behind the others
-    // In which its encoder takes pictures from a device that makes it; a file needs no encoder.
+    // In which its encoder takes pictures from a device that makes it; a file is copied.
     PictureForm device_form = PictureForm::kPixels;
     Outputs outputs{}; // that it makes files of, in place of pixels
     RateControl rate_control = RateControl::kNone;

@@ -11,11 +11,6 @@
 namespace froxel::stream {
 namespace {
 
-// Whether the device made a file of it, or was to.
-bool isFile(const PixelView& view) {
-    return view.data == nullptr && !view.planes;
-}
-
 settings::Codec codecOf(const DrawnFrame& frame) {
     return frame.record.delivered.encoding.codec;
 }
@@ -120,10 +115,6 @@ void FramePipeline::startEncoding() {
         encoding_->record.delivered.refinement < session::Refinement::kHigh) {
         video_.reset();
     }
-    if (isFile(encoding_->pixels.view())) {
-        takeFile();
-        return;
-    }
     encoding_->record.encode_wait_us = Microseconds(Clock::now() - encoding_->drawn_at).count();
     bool taken = false;
     {
@@ -138,21 +129,6 @@ void FramePipeline::startEncoding() {
     if (!taken) {
         finish({1, true});
     }
-}
-
-// What an encoder would have made of it is there.
-void FramePipeline::takeFile() {
-    const PixelView view = encoding_->pixels.view();
-    if (view.jpeg.empty()) {
-        onEncoded(Error{ErrorCode::kIo, "the JPEG is larger than there is room for"});
-        return;
-    }
-    EncodedFrame file{
-        .bytes = std::make_shared<const std::vector<std::byte>>(view.jpeg.begin(), view.jpeg.end()),
-        .width_px = view.width_px,
-        .height_px = view.height_px};
-    encoding_->pixels.end();
-    onEncoded(std::move(file));
 }
 
 // A request is served when its key frame is there: until then the pool may refuse the job.

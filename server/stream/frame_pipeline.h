@@ -20,7 +20,7 @@
 namespace froxel::stream {
 
 struct DrawnFrame {
-    PixelLease pixels;           // or their file, which no encoder is needed for
+    PixelLease pixels;
     uint64_t key_requests = 0;   // key frames asked for so far
     uint64_t version = 0;        // SessionState::version of what it shows
     session::FrameRecord record; // what is known before encoding
@@ -59,7 +59,6 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     void keepDepth();
     void codeDepth();
     void startEncoding();
-    void takeFile();
     [[nodiscard]] std::optional<encode::VideoJob> videoJob(const DrawnFrame& frame);
     void onEncoded(Result<EncodedFrame> result);
     void finish(Losses losses);
