@@ -81,7 +81,7 @@ const presenter = new Presenter({
   acknowledge: (ack) => void connection.send({ case: 'ack', value: ack }),
   painted: (header, decodeMs) => {
     stats.painted(header, decodeMs, nowMs());
-    warp.here?.noteLatency(stats.latencyP95Ms(nowMs()));
+    warp.here?.noteLatency(stats.inputToPicture(nowMs()));
     lookCosts.painted(header);
     panel.here?.showGrid(header.grid);
     animationCard.here?.showTime(header.animationTimeS);
@@ -182,7 +182,11 @@ const help = element('help', HTMLDialogElement);
 const tokenDialog = element('token', HTMLDialogElement);
 
 new WindowSize(store, canvas);
-new SettingsSync(store, connection, nextFrame);
+new SettingsSync(store, connection, nextFrame, (settings, atMs) => {
+  // Others of a room see the pictures as they come.
+  const isAlone = (store.state.room?.memberCount ?? 1) === 1;
+  return isAlone && warp.here ? warp.here.askedCamera(settings, atMs) : settings;
+});
 keepScene(store, connection);
 // Who asked their system for less motion begins with what stands still.
 const still = matchMedia('(prefers-reduced-motion: reduce)').matches;

@@ -2,6 +2,8 @@
 
 import type { FrameHeader } from './gen/froxel/v1/server_pb';
 import type { CodedDepth } from './protocol/framing';
+import type { CameraSettings } from './settings/settings';
+import { AskedCamera } from './warp/asked_camera';
 import { decodeDepthMesh, DepthMeshError } from './warp/depth_mesh';
 import { Freshness } from './warp/freshness';
 import { Reprojection, type ReprojectionEnvironment } from './warp/reprojection';
@@ -14,7 +16,9 @@ export interface Warp {
   cameraMoved(): void;
   restart(): void;
   /** From input to picture, of late; null: unknown. */
-  noteLatency(p95Ms: number | null): void;
+  noteLatency(latency: { readonly p50Ms: number; readonly p95Ms: number } | null): void;
+  /** What to ask the server for while the view is `now`. */
+  askedCamera<Camera extends CameraSettings>(now: Camera, nowMs: number): Camera;
   /** Whether depth is wanted. */
   readonly wantsDepth: boolean;
 }
@@ -34,6 +38,8 @@ export function makeWarp(canvas: HTMLCanvasElement, env: WarpEnvironment): Warp 
   });
   if (!surface) throw new Error('no WebGL2');
   const freshness = new Freshness();
+  const asked = new AskedCamera();
+  let leadMs = 0; // how late pictures are
   const nextFrame: WarpEnvironment['nextFrame'] = (action) =>
     env.nextFrame((nowMs) => {
       freshness.noteFrame(nowMs);
@@ -57,9 +63,11 @@ export function makeWarp(canvas: HTMLCanvasElement, env: WarpEnvironment): Warp 
     setPicture: (bitmap, header) => reprojection.setPicture(bitmap, header),
     cameraMoved: () => reprojection.cameraMoved(),
     restart: () => reprojection.restart(),
-    noteLatency: (p95Ms) => {
-      if (freshness.noteLatency(p95Ms)) follow();
+    noteLatency: (latency) => {
+      leadMs = latency?.p50Ms ?? leadMs;
+      if (freshness.noteLatency(latency?.p95Ms ?? null)) follow();
     },
+    askedCamera: (now, nowMs) => (reprojection.follows ? asked.of(now, nowMs, leadMs) : now),
     get wantsDepth() {
       return isWanted();
     },

@@ -146,17 +146,17 @@ export class FakeEnvironment implements Environment {
 
 /** Animation frames that come when told. */
 export class FakeFrames {
-  private pending: (() => void)[] = [];
-  readonly next = (action: () => void): void => void this.pending.push(action);
+  private pending: ((nowMs: number) => void)[] = [];
+  readonly next = (action: (nowMs: number) => void): void => void this.pending.push(action);
 
   get count(): number {
     return this.pending.length;
   }
 
-  run(): void {
+  run(nowMs = 0): void {
     const due = this.pending;
     this.pending = [];
-    for (const action of due) action();
+    for (const action of due) action(nowMs);
   }
 }
 

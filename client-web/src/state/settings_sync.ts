@@ -22,7 +22,9 @@ export class SettingsSync {
   constructor(
     private readonly store: Store,
     private readonly sender: Sender,
-    private readonly nextFrame: (action: () => void) => void,
+    private readonly nextFrame: (action: (nowMs: number) => void) => void,
+    /** With the camera to tell while the view moves; in the end with its own. */
+    private readonly asked: (settings: Settings, nowMs: number) => Settings = (settings) => settings,
   ) {
     // Between actions that wait, `sent` does not hold yet what went out: it would go out twice.
     store.listenSettled((state) => this.changed(state));
@@ -44,13 +46,15 @@ export class SettingsSync {
   private scheduleCamera(): void {
     if (this.framePending) return;
     this.framePending = true;
-    this.nextFrame(() => {
+    this.nextFrame((nowMs) => {
       this.framePending = false;
       const { link, settings, sent, room } = this.store.state;
-      const command = settings && sent && cameraCommand(sent, settings);
-      if (link.phase !== 'live' || !command || !mayControl(room)) return;
-      if (this.sender.backlogBytes > kMaxBacklogBytes) this.scheduleCamera();
-      else this.tell([command], settings);
+      if (link.phase !== 'live' || !settings || !sent || !mayControl(room)) return;
+      if (!cameraCommand(sent, settings)) return;
+      const told = this.asked(settings, nowMs);
+      const command = cameraCommand(sent, told);
+      if (!command || this.sender.backlogBytes > kMaxBacklogBytes) this.scheduleCamera();
+      else this.tell([command], told);
     });
   }
 

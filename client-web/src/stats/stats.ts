@@ -37,6 +37,11 @@ export interface Figures {
   readonly last: FrameHeader | null;
 }
 
+export interface InputToPicture {
+  readonly p50Ms: number;
+  readonly p95Ms: number;
+}
+
 export interface History {
   readonly timeS: number[];
   readonly intervalMs: (number | null)[];
@@ -106,10 +111,11 @@ export class Stats {
   }
 
   /** From input to picture; null where too few commands of late tell. */
-  latencyP95Ms(nowMs: number): number | null {
+  inputToPicture(nowMs: number): InputToPicture | null {
     const { window } = this.latency;
+    const [p50Ms, p95Ms] = [window.percentile(0.5), window.percentile(0.95)];
     const tells = nowMs - this.lastSampleMs < kOldMs && window.count >= kTellingSamples;
-    return tells ? window.percentile(0.95) : null;
+    return tells && p50Ms !== null && p95Ms !== null ? { p50Ms, p95Ms } : null;
   }
 
   figures(nowMs: number): Figures {

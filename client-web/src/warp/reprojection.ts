@@ -70,6 +70,11 @@ export class Reprojection {
     });
   }
 
+  /** Whether the newest picture is shown from the camera of now. */
+  get follows(): boolean {
+    return this.active && this.shown !== null && this.env.wanted()?.orthographic === false;
+  }
+
   /** False: pictures show as they come. */
   setActive(active: boolean): void {
     this.active = active;
@@ -129,7 +134,7 @@ export class Reprojection {
 }
 
 /** Null: one of its numbers is none. */
-function cameraOfPicture(camera: PictureCamera): WarpCamera | null {
+export function cameraOfPicture(camera: PictureCamera): WarpCamera | null {
   const { eye, right, up, halfHeight, lensShiftX, lensShiftY } = camera;
   const made = warpCamera({ eye: toVec(eye), right: toVec(right), up: toVec(up), halfHeight, lensShiftX, lensShiftY });
   const numbers = [made.eye, made.right, made.up].flatMap(({ x, y, z }) => [x, y, z]);

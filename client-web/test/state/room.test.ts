@@ -80,7 +80,7 @@ describe('watching', () => {
     new SettingsSync(
       store,
       { send: (body) => BigInt(sent.push(body.case)), backlogBytes: 0 },
-      (action) => action(),
+      (action) => action(0),
     );
     store.dispatch({ type: 'restored', wanted: { lights: 5, exposure: 2 }, size: null });
     store.dispatch(enter(9n, 7n, 50));

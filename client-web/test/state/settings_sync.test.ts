@@ -68,6 +68,28 @@ describe('SettingsSync', () => {
     expect(bodies.map((body) => body.value)).toEqual([{ count: 1 }, { count: 2 }, { count: 1 }]);
   });
 
+  it('AnotherCamera_IsToldUntilItIsTheViewsOwn', () => {
+    store = new Store();
+    let lead = 1;
+    new SettingsSync(store, sender, frames.next, (settings) =>
+      lead === 0 ? settings : { ...settings, eye: { ...settings.eye, x: settings.eye.x + lead } },
+    );
+    receiveWelcome();
+    edit({ eye: { x: 5, y: 0, z: 0 } });
+    frames.run();
+    expect(bodies.at(-1)?.value).toMatchObject({ eye: { x: 6 } });
+    frames.run(); // the same
+    expect(bodies.length).toBe(1);
+    edit({ lights: 7 });
+    lead = 0;
+    frames.run();
+    expect(cases()).toEqual(['setCamera', 'setLights', 'setCamera']);
+    expect(bodies.at(-1)?.value).toMatchObject({ eye: { x: 5 } });
+    expect(store.state.sent).toBe(store.state.settings);
+    frames.run();
+    expect(frames.count).toBe(0);
+  });
+
   it('CameraMoves_GoOutOnceAFrameAndTheLatestWins', () => {
     for (let x = 1; x <= 5; x += 1) edit({ eye: { x, y: 0, z: 0 } });
     expect(bodies).toEqual([]);
