@@ -181,7 +181,7 @@ export class Viewer {
    * Waits until what was chosen has left the page, a camera at the next frame, and Chromium has told of it: it does by
    * another way than it answers by, so on a busy machine later.
    */
-  private async commandsSent(): Promise<void> {
+  async commandsSent(): Promise<void> {
     const count = await this.page.evaluate(
       () =>
         new Promise<number>((done) => {
