@@ -46,6 +46,57 @@ it.each([
   expect(difference(warped, after)).toBeLessThan(0.35 * difference(before, after));
 });
 
+it('ScaledPicture_IsWarpedToo', async () => {
+  const viewer = await pages.open('#animate=0&scene_lights=1&lights=200&size=1280x720&target_fps=120');
+  await until('depth', () => viewer.depthCount > 0);
+  const { mouse } = viewer.page;
+  await mouse.move(600, 300);
+  await mouse.down();
+  let x = 600;
+  await until('a scaled picture', async () => {
+    x = x === 600 ? 610 : 600;
+    await mouse.move(x, 300);
+    return viewer.lastFrame && viewer.lastFrame.scale < 1 && viewer.lastFrame.depthMesh > 0n;
+  });
+  pages.hold(true);
+  let [before, warped]: number[][] = [[], []];
+  try {
+    before = await viewer.pageThumbnail();
+    await mouse.move(660, 300, { steps: 4 });
+    await until('the picture from another camera', () => isWarped(viewer));
+    warped = await viewer.pageThumbnail();
+  } finally {
+    pages.hold(false);
+  }
+  await mouse.up();
+  await viewer.settled();
+  await until('the picture itself', async () => !(await isWarped(viewer)));
+  const after = await viewer.pageThumbnail();
+  expect(difference(before, after)).toBeGreaterThan(3);
+  expect(difference(warped, after)).toBeLessThan(0.5 * difference(before, after));
+});
+
+it('Watcher_SeesTheViewMoveFromPictureToPicture', async () => {
+  const first = await pages.open(`?room=gallery${kStill}`);
+  const second = await pages.open('?room=gallery');
+  const asksForDepth = ({ sent }: Viewer): boolean => sent.some(({ body }) => body.case === 'requestDepth');
+  await until('both to ask for depth', () => asksForDepth(first) && asksForDepth(second));
+  const { mouse } = first.page;
+  await mouse.move(600, 300);
+  await mouse.down();
+  let x = 600;
+  await until('a view between two pictures', async () => {
+    x = x < 900 ? x + 4 : 600;
+    await mouse.move(x, 300);
+    return isWarped(second);
+  });
+  await mouse.up();
+  await first.settled();
+  await until('the picture itself in both', async () => !(await isWarped(first)) && !(await isWarped(second)));
+  const shown = await first.thumbnail();
+  await until('the same picture in both', async () => difference(await second.thumbnail(), shown) === 0);
+});
+
 it('ManyMoves_EndAtTheServersPicture', async () => {
   const viewer = await pages.open(kStill);
   await until('depth', () => viewer.depthCount > 0);

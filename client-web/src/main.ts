@@ -154,7 +154,7 @@ const connection = new Connection(
 
 const commands = new Commands(store, connection, picture, recorder);
 const handles = new Later(makeHandles, partMissing);
-const statsCard = new StatsCard(stats, { droppedHere: () => presenter.droppedCount, partMissing });
+const statsCard = new StatsCard(stats, { droppedHere: () => presenter.droppedCount, cameraText, partMissing });
 const panel = new Later(makePanel, partMissing);
 const banner = new Banner({
   remedies: {
@@ -175,7 +175,8 @@ const renderersCard = new Later(makeRenderers, partMissing);
 const pictureCard = new Later(makePictures, partMissing);
 const bring = new Later(makeBring, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
-const warp = new Later(makeWarp, () => undefined); // without it the picture shows as it comes
+let warpMissing = false;
+const warp = new Later(makeWarp, () => (warpMissing = true)); // without it the picture shows as it comes
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
 const help = element('help', HTMLDialogElement);
@@ -316,6 +317,7 @@ async function makeWarp(): Promise<Warp> {
   return makeWarp(element('warp', HTMLCanvasElement), {
     wanted: () => (mayControl(store.state.room) ? store.state.settings : null),
     nextFrame,
+    nowMs,
     problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
     wishChanged: askForDepth,
   });
@@ -373,6 +375,14 @@ function prefetch(): void {
 function askForDepth(): void {
   if (!warp.here || !store.state.server?.offersDepth) return;
   connection.send({ case: 'requestDepth', value: { wanted: warp.here.wantsDepth } });
+}
+
+/** When a moved camera shows, and why. */
+function cameraText(): string {
+  if (warp.here) return warp.here.text;
+  if (!wantsWarp) return 'late (off)';
+  if (store.state.server?.offersDepth === false) return 'late (no depth)';
+  return warpMissing ? 'late (no WebGL2)' : 'late';
 }
 
 function partMissing(): void {

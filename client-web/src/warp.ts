@@ -5,9 +5,10 @@ import type { CodedDepth } from './protocol/framing';
 import type { CameraSettings } from './settings/settings';
 import { AskedCamera } from './warp/asked_camera';
 import { decodeDepthMesh, DepthMeshError } from './warp/depth_mesh';
+import { DrawCost } from './warp/draw_cost';
 import { Freshness } from './warp/freshness';
 import { Reprojection, type ReprojectionEnvironment } from './warp/reprojection';
-import { WarpSurface } from './warp/warp_surface';
+import { WarpSurface, type Surface } from './warp/warp_surface';
 
 export interface Warp {
   setDepth(depth: CodedDepth): void;
@@ -21,6 +22,8 @@ export interface Warp {
   askedCamera<Camera extends CameraSettings>(now: Camera, nowMs: number): Camera;
   /** Whether depth is wanted. */
   readonly wantsDepth: boolean;
+  /** For the viewer: when a moved camera shows. */
+  readonly text: string;
 }
 
 export interface WarpEnvironment extends Omit<ReprojectionEnvironment, 'surface'> {
@@ -45,8 +48,18 @@ export function makeWarp(canvas: HTMLCanvasElement, env: WarpEnvironment): Warp 
       freshness.noteFrame(nowMs);
       action(nowMs);
     });
-  const reprojection = new Reprojection({ surface, wanted: env.wanted, nextFrame });
-  const isWanted = (): boolean => !lost && !freshness.fresh;
+  const cost = new DrawCost();
+  const timed: Surface = {
+    setPicture: (picture) => surface.setPicture(picture),
+    setMesh: (mesh) => surface.setMesh(mesh),
+    show: (visible) => surface.show(visible),
+    draw: (matrix, size) => {
+      cost.draw(() => surface.draw(matrix, size), () => surface.finish(), env.nowMs);
+      if (cost.slowMs !== null) queueMicrotask(follow);
+    },
+  };
+  const reprojection = new Reprojection({ ...env, surface: timed, nextFrame });
+  const isWanted = (): boolean => !lost && !freshness.fresh && cost.slowMs === null;
   const follow = (): void => {
     reprojection.setActive(isWanted());
     env.wishChanged();
@@ -70,6 +83,11 @@ export function makeWarp(canvas: HTMLCanvasElement, env: WarpEnvironment): Warp 
     askedCamera: (now, nowMs) => (reprojection.follows ? asked.of(now, nowMs, leadMs) : now),
     get wantsDepth() {
       return isWanted();
+    },
+    get text() {
+      if (lost) return 'late (WebGL2 lost)';
+      if (cost.slowMs !== null) return `late (WebGL2: ${cost.slowMs.toFixed(0)} ms)`;
+      return freshness.fresh ? 'at once (fresh)' : 'at once';
     },
   };
 }

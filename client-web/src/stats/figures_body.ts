@@ -10,6 +10,7 @@ import { Details, exposureText, peelText, shadowText, surfacesText } from './det
 import { Graph } from './graph';
 import { PassStack } from './pass_stack';
 import { kStages, type Figures, type Stats } from './stats';
+import type { StatsCardActions } from './stats_card';
 
 const kGraphWidth = 274;
 const kGraphHeight = 84;
@@ -28,10 +29,9 @@ export class FiguresBody {
   private readonly passes = new PassStack();
   private readonly graph = new Graph(element('graph', HTMLElement), kGraphWidth, kGraphHeight);
 
-  /** `droppedHere` counts frames that arrived and were not shown. */
   constructor(
     private readonly stats: Stats,
-    private readonly droppedHere: () => number,
+    private readonly page: Pick<StatsCardActions, 'droppedHere' | 'cameraText'>,
   ) {
     element('stats-body', HTMLElement).hidden = false;
   }
@@ -55,6 +55,7 @@ export class FiguresBody {
     this.value('Frame interval, ms', 'interval', ms(this.stats.history.intervalMs.at(-1) ?? null));
     const latency = `${ms(figures.latencyP50Ms)} · ${ms(figures.latencyP95Ms)}`;
     this.value('Latency, median · p95, ms', 'latency', latency);
+    this.value('Moved camera shows', 'camera', this.page.cameraText());
     this.value('Data rate', '', `${bytes(figures.bytesPerSecond)}/s`);
     if (!last) return;
     this.value('Codec', '', `${codecName(last)} · ${bits(figures.bytesPerSecond * 8)}/s`);
@@ -73,7 +74,7 @@ export class FiguresBody {
     this.value('Peeled layers · pixels with more', '', peelText(last));
     this.value('Lights with shadows · maps', '', shadowText(last));
     this.value('Metered exposure', '', exposureText(last));
-    const dropped = `${count(last.droppedFrames)} · ${count(this.droppedHere())}`;
+    const dropped = `${count(last.droppedFrames)} · ${count(this.page.droppedHere())}`;
     this.value('Frames dropped, server · page', '', dropped);
   }
 

@@ -13,6 +13,8 @@ const kRefreshMs = 250;
 export interface StatsCardActions {
   /** Frames that arrived and were not shown. */
   droppedHere(): number;
+  /** When a moved camera shows. */
+  cameraText(): string;
   /** A part of the page could not be fetched. */
   partMissing(): void;
 }
@@ -32,7 +34,7 @@ export class StatsCard {
   ) {
     this.body = new Later(async () => {
       const { FiguresBody } = await import('./figures_body');
-      const body = new FiguresBody(stats, () => actions.droppedHere());
+      const body = new FiguresBody(stats, actions);
       if (this.details) body.showDetails(this.details);
       return body;
     }, () => actions.partMissing());

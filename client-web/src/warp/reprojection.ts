@@ -1,11 +1,13 @@
 // Shows the newest picture from the camera of now until the server's own picture of that camera is
-// here: camera input does not wait for the server. While the camera rests, and where a picture has
-// no depth, the picture itself shows.
+// here: camera input does not wait for the server. A view that somebody else steers moves evenly from
+// picture to picture. While the camera rests, and where a picture has no depth, the picture itself
+// shows.
 
 import type { Size } from '../core/size';
 import type { FrameHeader, PictureCamera } from '../gen/froxel/v1/server_pb';
 import { toVec, type CameraSettings } from '../settings/settings';
 import { verticesAlong, type DepthMesh } from './depth_mesh';
+import { Glide } from './glide';
 import { warpCamera, warpCameraOf, warped, warpMatrix, type WarpCamera } from './warp_matrix';
 import type { Surface } from './warp_surface';
 
@@ -16,9 +18,10 @@ export interface Wanted extends CameraSettings {
 
 export interface ReprojectionEnvironment {
   readonly surface: Surface;
-  /** What the viewer wants to see now; null: what the server shows, as of somebody else's camera. */
+  /** What the viewer wants to see now; null: what somebody else wants. */
   readonly wanted: () => Wanted | null;
   readonly nextFrame: (action: (nowMs: number) => void) => void;
+  readonly nowMs: () => number;
 }
 
 interface Shown {
@@ -27,6 +30,13 @@ interface Shown {
   readonly size: Size;
   readonly mesh: DepthMesh;
   uploaded: boolean;
+}
+
+interface View {
+  readonly camera: WarpCamera;
+  readonly size: Size;
+  /** The same one while nothing changes. */
+  readonly of: Wanted | WarpCamera;
 }
 
 /** A shorter way of any pixel is not seen: the picture shows as it is, to the bit. */
@@ -42,7 +52,8 @@ export class Reprojection {
   private shown: Shown | null = null; // null: it cannot be shown from another camera
   private active = true;
   private pending = false;
-  private drawnFor: readonly [Shown | null, Wanted | null] = [null, null];
+  private drawnFor: readonly [Shown | null, View['of'] | null] = [null, null];
+  private readonly glide = new Glide();
 
   constructor(private readonly env: ReprojectionEnvironment) {}
 
@@ -56,6 +67,7 @@ export class Reprojection {
   setPicture(bitmap: ImageBitmap, header: FrameHeader): void {
     this.shown?.bitmap.close();
     this.shown = this.shownOf(bitmap, header);
+    this.glide.start(this.shown?.camera ?? null, this.env.nowMs());
     if (!this.shown) bitmap.close();
     this.draw();
   }
@@ -87,6 +99,7 @@ export class Reprojection {
     this.shown?.bitmap.close();
     this.shown = null;
     this.meshes = [];
+    this.glide.start(null, this.env.nowMs());
     this.env.surface.show(false);
   }
 
@@ -101,26 +114,33 @@ export class Reprojection {
     return camera && { bitmap, camera, size: { width, height }, mesh, uploaded: false };
   }
 
+  private glidingView(): View | null {
+    const camera = this.glide.at(this.env.nowMs());
+    return camera && this.shown && { camera, size: this.shown.size, of: camera };
+  }
+
   private draw(): void {
     const { surface } = this.env;
     const { shown } = this;
     const wanted = this.env.wanted();
-    if (this.drawnFor[0] === shown && this.drawnFor[1] === wanted) return;
-    this.drawnFor = [shown, wanted];
-    const to = wanted && warpCameraOf(wanted);
-    if (!this.active || !shown || !to || !hasShapeOf(shown.size, wanted)) {
+    const view = wanted ? viewOf(wanted) : this.glidingView();
+    const of = view?.of ?? wanted;
+    if (this.drawnFor[0] === shown && this.drawnFor[1] === of) return;
+    this.drawnFor = [shown, of];
+    if (!this.active || !shown || !view || !hasShapeOf(shown.size, view.size)) {
       surface.show(false);
       return;
     }
-    const aspect = wanted.width / wanted.height;
+    if (view.camera !== shown.camera && !wanted) this.cameraMoved(); // on its way
+    const aspect = view.size.width / view.size.height;
     const { nearestPerM: nearest, medianPerM } = shown.mesh;
-    const matrix = warpMatrix(shown.camera, to, aspect, nearest);
-    if (isStill(matrix, wanted, nearest)) {
+    const matrix = warpMatrix(shown.camera, view.camera, aspect, nearest);
+    if (isStill(matrix, view.size, nearest)) {
       surface.show(false);
       return;
     }
-    if (outsideShare(warpMatrix(to, shown.camera, aspect, nearest), medianPerM) > kMostOutside) {
-      if (!shown.uploaded) surface.show(false); // newer than what was warped
+    if (outsideShare(warpMatrix(view.camera, shown.camera, aspect, nearest), medianPerM) > kMostOutside) {
+      if (!shown.uploaded || !wanted) surface.show(false); // newer than what was warped
       return;
     }
     if (!shown.uploaded) {
@@ -128,9 +148,14 @@ export class Reprojection {
       surface.setPicture(shown.bitmap);
       surface.setMesh(shown.mesh);
     }
-    surface.draw(matrix, wanted);
+    surface.draw(matrix, view.size);
     surface.show(true);
   }
+}
+
+function viewOf(wanted: Wanted): View | null {
+  const camera = warpCameraOf(wanted);
+  return camera && { camera, size: wanted, of: wanted };
 }
 
 /** Null: one of its numbers is none. */

@@ -143,6 +143,12 @@ export class WarpSurface implements Surface {
     gl.drawElements(gl.TRIANGLES, this.indexCount, gl.UNSIGNED_INT, 0);
   }
 
+  /** Waits until all is drawn. */
+  finish(): void {
+    const { gl } = this.made;
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
   show(visible: boolean): void {
     this.canvas.hidden = !visible;
   }

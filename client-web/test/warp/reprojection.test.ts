@@ -35,6 +35,7 @@ let frames: FakeFrames;
 let wanted: Wanted | null;
 let openBitmaps: number;
 let warp: Reprojection;
+let nowMs: number;
 
 const view = (x: number, change: Partial<Wanted> = {}): Wanted => ({
   ...sampleSettings({ eye: vec(x, 0, 0), target: vec(x, 0, -5), fovDeg: 90 }),
@@ -70,7 +71,8 @@ beforeEach(() => {
   frames = new FakeFrames();
   wanted = view(0);
   openBitmaps = 0;
-  warp = new Reprojection({ surface, wanted: () => wanted, nextFrame: (action) => frames.next(() => action(0)) });
+  nowMs = 10_000;
+  warp = new Reprojection({ surface, wanted: () => wanted, nextFrame: frames.next, nowMs: () => nowMs });
   warp.setMesh(kMesh);
 });
 
@@ -144,13 +146,27 @@ describe('Reprojection', () => {
     expect(surface.visible).toBe(false);
   });
 
-  it('SomebodyElsesOrAParallelView_IsNotWarped', () => {
+  it('ParallelView_IsNotWarped', () => {
     warp.setPicture(bitmap(), header());
     moveTo(view(0.1));
     moveTo(view(0.1, { orthographic: true }));
     expect(surface.visible).toBe(false);
-    moveTo(view(0.2));
-    moveTo(null);
+  });
+
+  it('SomebodyElsesView_MovesFromPictureToPicture', () => {
+    wanted = null;
+    warp.setPicture(bitmap(), header());
+    expect(surface.visible).toBe(false);
+    nowMs += 60;
+    warp.setPicture(bitmap(), from(1));
+    for (let frame = 1; frame <= 3; frame += 1) {
+      expect([surface.visible, surface.draws]).toEqual([true, frame]);
+      nowMs += 20;
+      frames.run();
+    }
+    expect([surface.visible, surface.draws, frames.count]).toEqual([false, 3, 0]);
+    nowMs += 60;
+    warp.setPicture(bitmap(), from(50)); // another view, of which that picture has nothing
     expect(surface.visible).toBe(false);
   });
 
