@@ -3,6 +3,7 @@
 import type { FrameHeader } from './gen/froxel/v1/server_pb';
 import type { CodedDepth } from './protocol/framing';
 import type { CameraSettings } from './settings/settings';
+import type { InputToPicture } from './stats/stats';
 import { AskedCamera } from './warp/asked_camera';
 import { decodeDepthMesh, DepthMeshError } from './warp/depth_mesh';
 import { DrawCost } from './warp/draw_cost';
@@ -17,7 +18,7 @@ export interface Warp {
   cameraMoved(): void;
   restart(): void;
   /** From input to picture, of late; null: unknown. */
-  noteLatency(latency: { readonly p50Ms: number; readonly p95Ms: number } | null): void;
+  noteLatency(latency: InputToPicture | null): void;
   /** What to ask the server for while the view is `now`. */
   askedCamera<Camera extends CameraSettings>(now: Camera, nowMs: number): Camera;
   /** Whether depth is wanted. */

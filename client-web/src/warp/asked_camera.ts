@@ -34,12 +34,7 @@ export class AskedCamera {
     const [eyeStep, targetStep] = [scale(speed.eye, lead), scale(speed.target, lead)];
     const most = kLargestChange * length(sub(target, eye));
     const share = Math.min(1, most / Math.max(length(sub(targetStep, eyeStep)), most, Number.MIN_VALUE));
-    return {
-      ...camera,
-      eye: add(eye, scale(eyeStep, share)),
-      target: add(target, scale(targetStep, share)),
-      fovDeg: widened(camera.fovDeg),
-    };
+    return widened({ ...camera, eye: add(eye, scale(eyeStep, share)), target: add(target, scale(targetStep, share)) });
   }
 
   /** Null: it rests, or begins or ends to move. */
@@ -72,8 +67,13 @@ function steady(before: Vec, after: Vec): Vec {
   return length(before) < length(after) ? before : after;
 }
 
-function widened(fovDeg: number): number {
-  if (fovDeg > kWideDeg) return fovDeg;
-  const halfHeight = Math.tan((fovDeg * Math.PI) / 360);
-  return (Math.atan(halfHeight * (1 + 2 * kGuard)) * 360) / Math.PI;
+function widened<Camera extends CameraSettings>(camera: Camera): Camera {
+  if (camera.fovDeg > kWideDeg) return camera;
+  const by = 1 + 2 * kGuard;
+  return {
+    ...camera,
+    fovDeg: (Math.atan(by * Math.tan((camera.fovDeg * Math.PI) / 360)) * 360) / Math.PI,
+    lensShiftX: camera.lensShiftX / by, // in half pictures, which are larger
+    lensShiftY: camera.lensShiftY / by,
+  };
 }

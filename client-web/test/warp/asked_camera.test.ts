@@ -42,6 +42,8 @@ describe('AskedCamera', () => {
   it('MovingCamera_SeesATenthMore', () => {
     const { fovDeg } = asked(orbits(kEven), 50);
     expect(Math.tan((fovDeg * Math.PI) / 360)).toBeCloseTo(1.1 * Math.tan(Math.PI / 8), 9);
+    const shifted = orbits(kEven).map((camera) => ({ ...camera, lensShiftX: 0.55 }));
+    expect(asked(shifted, 50).lensShiftX).toBeCloseTo(0.5, 9);
     const wide = orbits(kEven).map((camera) => ({ ...camera, fovDeg: 120 }));
     expect(asked(wide, 50).fovDeg).toBe(120);
   });
