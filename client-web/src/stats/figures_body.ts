@@ -10,7 +10,6 @@ import { Details, exposureText, peelText, shadowText, surfacesText } from './det
 import { Graph } from './graph';
 import { PassStack } from './pass_stack';
 import { kStages, type Figures, type Stats } from './stats';
-import type { StatsCardActions } from './stats_card';
 
 const kGraphWidth = 274;
 const kGraphHeight = 84;
@@ -22,6 +21,14 @@ interface Bar {
   readonly ms: number;
 }
 
+/** What the page knows beside its frames. */
+export interface PageFacts {
+  /** Frames that arrived and were not shown. */
+  droppedHere(): number;
+  /** When a moved camera shows. */
+  cameraText(): string;
+}
+
 export class FiguresBody {
   private readonly list = element('stats-list', HTMLElement);
   private readonly values = new Map<string, HTMLElement>();
@@ -31,7 +38,7 @@ export class FiguresBody {
 
   constructor(
     private readonly stats: Stats,
-    private readonly page: Pick<StatsCardActions, 'droppedHere' | 'cameraText'>,
+    private readonly page: PageFacts,
   ) {
     element('stats-body', HTMLElement).hidden = false;
   }

@@ -5,16 +5,12 @@ import { ms } from '../core/format';
 import { keepOpen, wasOpen } from '../core/kept';
 import { Later } from '../core/later';
 import type { FrameDetails } from '../gen/froxel/v1/server_pb';
-import type { FiguresBody } from './figures_body';
+import type { FiguresBody, PageFacts } from './figures_body';
 import type { Stats } from './stats';
 
 const kRefreshMs = 250;
 
-export interface StatsCardActions {
-  /** Frames that arrived and were not shown. */
-  droppedHere(): number;
-  /** When a moved camera shows. */
-  cameraText(): string;
+export interface StatsCardActions extends PageFacts {
   /** A part of the page could not be fetched. */
   partMissing(): void;
 }
