@@ -10,7 +10,7 @@ import { sphereOf, type Sphere } from './view';
 
 export const kRoot = fileURLToPath(new URL('../..', import.meta.url));
 
-const kBuild = process.env.FROXEL_BUILD ?? join(kRoot, 'build/test');
+export const kBuild = process.env.FROXEL_BUILD ?? join(kRoot, 'build/test');
 const kFroxel = join(kBuild, 'froxel');
 const kTools = join(kBuild, 'tests/compare');
 const kMostOutput = 64 * 1024 * 1024; // bytes: a scene may have many warnings

@@ -1,5 +1,6 @@
 // From a move of the mouse to the first picture that shows it, over links of several delays: of the page's own warp, and
 // of the server's picture. Prints a line of JSON for each.
+// Needs cmake --build build/test --target froxel_relay.
 //   FROXEL_SCENE   a scene file; without it the built-in hall
 
 import type { Browser } from 'playwright-core';
@@ -14,10 +15,10 @@ const kWarmUpMs = 4_000;
 const kDragMs = 15_000;
 const kStepMs = 16;
 const kLinks: readonly LinkOptions[] = [
-  { delayMs: 0, downBitsPerS: Infinity },
-  { delayMs: 25, downBitsPerS: Infinity },
-  { delayMs: 75, downBitsPerS: Infinity },
-  { delayMs: 25, downBitsPerS: 2_500_000 },
+  { delayMs: 0, kbitPerS: 0 },
+  { delayMs: 25, kbitPerS: 0 },
+  { delayMs: 75, kbitPerS: 0 },
+  { delayMs: 25, kbitPerS: 2_500 },
 ];
 
 interface Times {
