@@ -1,9 +1,10 @@
 // Which parts of a picture another one shows, by the depth of both.
 
 import type { FrameHeader } from '../src/gen/froxel/v1/server_pb';
-import type { DepthMesh } from '../src/warp/depth_mesh';
+import type { CodedDepth } from '../src/protocol/framing';
+import { decodeDepthMesh, type DepthMesh } from '../src/warp/depth_mesh';
 import { cameraOfPicture } from '../src/warp/reprojection';
-import { warped, warpMatrix, type WarpCamera } from '../src/warp/warp_matrix';
+import { warped, warpMatrix, type WarpCamera, type Warped } from '../src/warp/warp_matrix';
 
 export interface View {
   readonly mesh: DepthMesh;
@@ -11,12 +12,12 @@ export interface View {
   readonly aspect: number;
 }
 
-export function viewOf(header: FrameHeader, meshes: ReadonlyMap<bigint, DepthMesh>): View {
+export function viewOf(header: FrameHeader, depths: ReadonlyMap<bigint, CodedDepth>): View {
   const { width, height, depthMesh, pictureCamera } = header;
-  const mesh = meshes.get(depthMesh);
+  const depth = depths.get(depthMesh);
   const camera = pictureCamera && cameraOfPicture(pictureCamera);
-  if (!mesh || !camera) throw new Error(`frame ${header.frameId} has no depth`);
-  return { mesh, camera, aspect: width / height };
+  if (!depth || !camera) throw new Error(`frame ${header.frameId} has no depth`);
+  return { mesh: decodeDepthMesh(depth.header, depth.bytes), camera, aspect: width / height };
 }
 
 /** A surface that is nearer by less than this share is the same one. */
@@ -31,13 +32,12 @@ export function seenVertices(view: View, other: View): boolean[] {
     const [x, y, w] = [across(i % columns, columns), -across(Math.floor(i / columns), rows), step * perStep];
     const at = warped(matrix, x, y, w);
     if (!at || Math.abs(at.x) > 1 || Math.abs(at.y) > 1) return false;
-    const depth = (matrix[3] ?? 0) * x + (matrix[7] ?? 0) * y + (matrix[11] ?? 0) * w + (matrix[15] ?? 0);
-    return farthestAt(other.mesh, at) <= kSameSurface * (w / depth) + 2 * other.mesh.perStep;
+    return farthestAt(other.mesh, at) <= kSameSurface * at.w + 2 * other.mesh.perStep;
   });
 }
 
 /** The inverse distance of the farthest of the vertices around a place, in 1/m. */
-function farthestAt({ columns, rows, steps, perStep }: DepthMesh, { x, y }: { x: number; y: number }): number {
+function farthestAt({ columns, rows, steps, perStep }: DepthMesh, { x, y }: Warped): number {
   const column = Math.min(columns - 2, Math.floor(((x + 1) / 2) * (columns - 1)));
   const row = Math.min(rows - 2, Math.floor(((1 - y) / 2) * (rows - 1)));
   const at = (dx: number, dy: number): number => steps[(row + dy) * columns + column + dx] ?? 0;

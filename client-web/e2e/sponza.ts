@@ -1,10 +1,8 @@
 // Views of Sponza in a page, of which the server is held while the camera moves.
 
-import { decodeBinary } from '../src/protocol/framing';
 import { length, sub, vec, type Vec } from '../src/core/vec3';
 import type { FrameHeader } from '../src/gen/froxel/v1/server_pb';
 import type { CameraSettings as Camera } from '../src/settings/settings';
-import { decodeDepthMesh, type DepthMesh } from '../src/warp/depth_mesh';
 import { viewOf, type View } from './seen';
 import type { Server } from './server';
 import { until, type Viewer } from './viewer';
@@ -29,15 +27,21 @@ function addressOf({ eye, target, fovDeg }: Camera): string {
   return `${kPicture}&eye=${text(eye)}&target=${text(target)}&up=0,1,0&fov_deg=${fovDeg}`;
 }
 
+interface Mask {
+  readonly png: string; // base64
+  readonly seen: boolean[];
+  readonly columns: number;
+  readonly cell: number; // pixels
+}
+
 /** Runs in the page: the picture with the cells of vertices that are not `seen` painted over. */
-async function maskInPage({ png, seen, columns }: { png: string; seen: boolean[]; columns: number }): Promise<string> {
+async function maskInPage({ png, seen, columns, cell }: Mask): Promise<string> {
   const bytes = Uint8Array.from(atob(png), (letter) => letter.charCodeAt(0));
   const picture = await createImageBitmap(new Blob([bytes]));
   const canvas = new OffscreenCanvas(picture.width, picture.height);
   const context = canvas.getContext('2d');
   if (!context) throw new Error('no canvas');
   context.drawImage(picture, 0, 0);
-  const cell = 8;
   context.fillStyle = 'gray';
   for (const [i, isSeen] of seen.entries()) {
     if (!isSeen) context.fillRect((i % columns) * cell - cell / 2, Math.floor(i / columns) * cell - cell / 2, cell, cell);
@@ -47,22 +51,10 @@ async function maskInPage({ png, seen, columns }: { png: string; seen: boolean[]
 }
 
 export class Sponza {
-  private readonly meshes = new Map<bigint, DepthMesh>();
-
-  /** Before the page is opened. */
   constructor(
     private readonly viewer: Viewer,
     private readonly server: Server,
-  ) {
-    viewer.page.on('websocket', (socket) =>
-      socket.on('framereceived', ({ payload }) => {
-        const decoded = typeof payload === 'string' ? null : decodeBinary(new Uint8Array(payload).buffer);
-        if (decoded?.kind !== 'depth') return;
-        const mesh = decodeDepthMesh(decoded.depth.header, decoded.depth.bytes);
-        this.meshes.set(mesh.number, mesh);
-      }),
-    );
-  }
+  ) {}
 
   /** Waits until the page shows the server's own picture from there. */
   async arriveAt(pose: Camera): Promise<View> {
@@ -71,7 +63,7 @@ export class Sponza {
     const header = await until('a picture from there', () => this.frameFrom(pose));
     await this.viewer.commandsSent();
     await until('the picture itself', async () => !(await this.viewer.page.locator('#warp').isVisible()));
-    return viewOf(header, this.meshes);
+    return viewOf(header, this.viewer.depths);
   }
 
   /** The page while the server stands still. */
@@ -97,8 +89,8 @@ export class Sponza {
 
   /** `seen`: by vertex of the view's mesh. */
   async masked(png: Buffer, seen: boolean[], { mesh }: View): Promise<Buffer> {
-    const columns = mesh.columns;
-    return Buffer.from(await this.viewer.page.evaluate(maskInPage, { png: png.toString('base64'), seen, columns }), 'base64');
+    const mask: Mask = { png: png.toString('base64'), seen, columns: mesh.columns, cell: mesh.cellPx };
+    return Buffer.from(await this.viewer.page.evaluate(maskInPage, mask), 'base64');
   }
 
   /** As a link to that view that somebody opens in the page. */

@@ -9,7 +9,7 @@ import type { Browser, BrowserContext, BrowserContextOptions, Locator, Page } fr
 import { ClientMessageSchema, type ClientMessage } from '../src/gen/froxel/v1/client_pb';
 import { DebugView, Refine, Refinement, type ViewState } from '../src/gen/froxel/v1/common_pb';
 import type { FrameHeader, ServerMessage } from '../src/gen/froxel/v1/server_pb';
-import { decodeBinary } from '../src/protocol/framing';
+import { decodeBinary, type CodedDepth } from '../src/protocol/framing';
 
 const kResults = fileURLToPath(new URL('../test-results', import.meta.url));
 const kPatienceMs = 240_000;
@@ -53,7 +53,7 @@ export class Viewer {
   readonly complaints: string[] = []; // errors on the console, exceptions
   private sentCount = 0; // of any kind, as far as Chromium has told
   frameCount = 0;
-  depthCount = 0;
+  readonly depths = new Map<bigint, CodedDepth>(); // by number
   lastFrame: FrameHeader | null = null;
   connectionCount = 0;
 
@@ -262,7 +262,7 @@ export class Viewer {
       return;
     }
     if (decoded.kind === 'depth') {
-      this.depthCount += 1;
+      this.depths.set(decoded.depth.header.number, decoded.depth);
       return;
     }
     this.frameCount += 1;

@@ -136,7 +136,7 @@ async function onSponza(measure: (sponza: Sponza, folder: string) => Promise<voi
     const viewer = await Viewer.open(browser, 'about:blank', { viewport: kSizePx });
     const sponza = new Sponza(viewer, server);
     await viewer.page.goto(server.url + kPicture);
-    await until('depth', () => viewer.depthCount > 0);
+    await until('depth', () => viewer.depths.size > 0);
     await viewer.page.addStyleTag({ content: kPictureAlone });
     await measure(sponza, mkdtempSync(join(tmpdir(), 'froxel-warp-')));
   } finally {

@@ -1,33 +1,6 @@
 // Sliding statistics of the last samples.
 
-export class SampleWindow {
-  private readonly samples: number[] = [];
-  private next = 0;
-
-  constructor(private readonly capacity: number) {}
-
-  push(value: number): void {
-    this.samples[this.next] = value;
-    this.next = (this.next + 1) % this.capacity;
-  }
-
-  get count(): number {
-    return this.samples.length;
-  }
-
-  /** The value that `fraction` of the samples do not exceed (nearest rank); null without samples. */
-  percentile(fraction: number): number | null {
-    if (this.samples.length === 0) return null;
-    const sorted = [...this.samples].sort((a, b) => a - b);
-    const rank = Math.ceil(fraction * sorted.length) - 1;
-    return sorted[Math.max(0, Math.min(sorted.length - 1, rank))] ?? null;
-  }
-
-  clear(): void {
-    this.samples.length = 0;
-    this.next = 0;
-  }
-}
+import { SampleWindow } from '../core/sample_window';
 
 /** Sums over the last `spanMs`, as a rate in units a second. */
 export class RateMeter {

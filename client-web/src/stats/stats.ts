@@ -1,7 +1,8 @@
 // What the statistics card shows, gathered from painted frames. No DOM, no clock of its own.
 
+import { SampleWindow } from '../core/sample_window';
 import type { FrameHeader } from '../gen/froxel/v1/server_pb';
-import { InputLatency, RateMeter, SampleWindow } from './latency';
+import { InputLatency, RateMeter } from './latency';
 import { PassMeter } from './pass_meter';
 
 const kRateSpanMs = 2_000;
@@ -113,9 +114,9 @@ export class Stats {
   /** From input to picture; null where too few commands of late tell. */
   inputToPicture(nowMs: number): InputToPicture | null {
     const { window } = this.latency;
+    if (nowMs - this.lastSampleMs >= kOldMs || window.count < kTellingSamples) return null;
     const [p50Ms, p95Ms] = [window.percentile(0.5), window.percentile(0.95)];
-    const tells = nowMs - this.lastSampleMs < kOldMs && window.count >= kTellingSamples;
-    return tells && p50Ms !== null && p95Ms !== null ? { p50Ms, p95Ms } : null;
+    return p50Ms === null || p95Ms === null ? null : { p50Ms, p95Ms };
   }
 
   figures(nowMs: number): Figures {

@@ -33,7 +33,8 @@ export class AskedCamera {
     const lead = Math.min(leadMs, kLongestLeadMs);
     const [eyeStep, targetStep] = [scale(speed.eye, lead), scale(speed.target, lead)];
     const most = kLargestChange * length(sub(target, eye));
-    const share = Math.min(1, most / Math.max(length(sub(targetStep, eyeStep)), most, Number.MIN_VALUE));
+    const change = length(sub(targetStep, eyeStep));
+    const share = change > most ? most / change : 1;
     return widened({ ...camera, eye: add(eye, scale(eyeStep, share)), target: add(target, scale(targetStep, share)) });
   }
 

@@ -1,6 +1,8 @@
 // Whether drawing takes so long that the server's pictures are better shown as they come. Whoever
 // waits for a device stops it, so that only some draws are timed.
 
+import { SampleWindow } from '../core/sample_window';
+
 const kTimedEach = 30; // draws
 const kTimed = 5; // of which the median counts
 /** Twenty a second are smoother than the pictures of a slow server. */
@@ -8,7 +10,7 @@ const kSlowMs = 50;
 
 export class DrawCost {
   private draws = 0;
-  private readonly timesMs: number[] = [];
+  private readonly timesMs = new SampleWindow(kTimed);
 
   /** `finish` waits until all is drawn. */
   draw(draw: () => void, finish: () => void, nowMs: () => number): void {
@@ -22,12 +24,11 @@ export class DrawCost {
     draw();
     finish();
     this.timesMs.push(nowMs() - beginMs);
-    if (this.timesMs.length > kTimed) this.timesMs.shift();
   }
 
   /** Milliseconds of a draw, if that is too many; else null. */
   get slowMs(): number | null {
-    const median = [...this.timesMs].sort((a, b) => a - b)[kTimed >> 1];
-    return this.timesMs.length === kTimed && median !== undefined && median > kSlowMs ? median : null;
+    const medianMs = this.timesMs.count < kTimed ? null : this.timesMs.percentile(0.5);
+    return medianMs !== null && medianMs > kSlowMs ? medianMs : null;
   }
 }

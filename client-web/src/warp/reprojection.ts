@@ -35,8 +35,6 @@ interface Shown {
 interface View {
   readonly camera: WarpCamera;
   readonly size: Size;
-  /** The same one while nothing changes. */
-  readonly of: Wanted | WarpCamera;
 }
 
 /** A shorter way of any pixel is not seen: the picture shows as it is, to the bit. */
@@ -52,7 +50,7 @@ export class Reprojection {
   private shown: Shown | null = null; // null: it cannot be shown from another camera
   private active = true;
   private pending = false;
-  private drawnFor: readonly [Shown | null, View['of'] | null] = [null, null];
+  private drawnFor: readonly [Shown | null, Wanted | WarpCamera | null] = [null, null];
   private readonly glide = new Glide();
 
   constructor(private readonly env: ReprojectionEnvironment) {}
@@ -116,7 +114,7 @@ export class Reprojection {
 
   private glidingView(): View | null {
     const camera = this.glide.at(this.env.nowMs());
-    return camera && this.shown && { camera, size: this.shown.size, of: camera };
+    return camera && this.shown && { camera, size: this.shown.size };
   }
 
   private draw(): void {
@@ -124,7 +122,7 @@ export class Reprojection {
     const { shown } = this;
     const wanted = this.env.wanted();
     const view = wanted ? viewOf(wanted) : this.glidingView();
-    const of = view?.of ?? wanted;
+    const of = wanted ?? view?.camera ?? null; // the same one while nothing changes
     if (this.drawnFor[0] === shown && this.drawnFor[1] === of) return;
     this.drawnFor = [shown, of];
     if (!this.active || !shown || !view || !hasShapeOf(shown.size, view.size)) {
@@ -155,7 +153,7 @@ export class Reprojection {
 
 function viewOf(wanted: Wanted): View | null {
   const camera = warpCameraOf(wanted);
-  return camera && { camera, size: wanted, of: wanted };
+  return camera && { camera, size: wanted };
 }
 
 /** Null: one of its numbers is none. */

@@ -57,10 +57,16 @@ export function warpMatrix(from: WarpCamera, to: WarpCamera, aspect: number, nea
   return new Float32Array([...right, ...up, ...moved, ...ahead]);
 }
 
-/** Where a point of the picture is in the other view, x and y from -1 to 1; null: behind the eye. */
-export function warped(matrix: Float32Array, x: number, y: number, w: number): { x: number; y: number } | null {
+export interface Warped {
+  readonly x: number;
+  readonly y: number;
+  readonly w: number; // 1/m
+}
+
+/** A point of the picture in the other view: x and y from -1 to 1, and its inverse distance; null: behind the eye. */
+export function warped(matrix: Float32Array, x: number, y: number, w: number): Warped | null {
   const row = (i: number): number =>
     (matrix[i] ?? 0) * x + (matrix[4 + i] ?? 0) * y + (matrix[8 + i] ?? 0) * w + (matrix[12 + i] ?? 0);
   const depth = row(3);
-  return depth > 0 ? { x: row(0) / depth, y: row(1) / depth } : null;
+  return depth > 0 ? { x: row(0) / depth, y: row(1) / depth, w: w / depth } : null;
 }
