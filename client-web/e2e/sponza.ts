@@ -9,7 +9,7 @@ import { until, type Viewer } from './viewer';
 
 export const kSizePx = { width: 640, height: 360 };
 /** Every pixel as the server has it, so that pictures differ by the warp alone. */
-export const kPicture = `#size=${kSizePx.width}x${kSizePx.height}&animate=0&refine=none&quality=95&chroma=444&lights=500`;
+export const kPicture = `#size=${kSizePx.width}x${kSizePx.height}&animate=0&refine=none&adaptive=0&quality=95&chroma=444&lights=500`;
 /** A style of the page. */
 export const kPictureAlone = 'body > :not(:has(canvas)), :has(> canvas) > :not(canvas) { display: none !important }';
 
