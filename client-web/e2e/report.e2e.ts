@@ -1,4 +1,4 @@
-// The report of `froxel bench` as a reader opens it: one file, no network.
+// The reports of `froxel bench`, `load` and `diff` as a reader opens them: one file, no network.
 
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -10,19 +10,21 @@ import type { AxeResults } from 'axe-core';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { kLoadSamplePath, kSamplePath, sample } from '../test/report/fakes';
+import { kDiffSamplePath, kLoadSamplePath, kSamplePath, sample } from '../test/report/fakes';
 import { launch } from './chromium';
 import { until } from './viewer';
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const kTemplate = fileURLToPath(new URL('../dist/report.html', import.meta.url));
 const kLoadTemplate = fileURLToPath(new URL('../dist/load.html', import.meta.url));
+const kDiffTemplate = fileURLToPath(new URL('../dist/diff.html', import.meta.url));
 const kPlace = '<script type="application/json" id="results">null</script>';
 
 let browser: Browser;
 let folder: string;
 let filled: string;
 let loadFilled: string;
+let diffFilled: string;
 
 /** A template of dist/ with the JSON of a run in it. */
 function fill(name: string, template: string, path: string): string {
@@ -39,6 +41,7 @@ beforeAll(async () => {
   folder = mkdtempSync(join(tmpdir(), 'froxel-report-'));
   filled = fill('report.html', kTemplate, kSamplePath);
   loadFilled = fill('load.html', kLoadTemplate, kLoadSamplePath);
+  diffFilled = fill('diff.html', kDiffTemplate, kDiffSamplePath);
 });
 afterAll(async () => {
   await browser.close();
@@ -71,6 +74,20 @@ async function open(file: string, width: number, colorScheme: 'light' | 'dark'):
   );
   await page.goto(pathToFileURL(file).href);
   return { page, complaints, fetched };
+}
+
+/** The elements whose text is too faint, and how many are not. */
+async function contrasts(page: Page): Promise<{ poor: string[]; good: number }> {
+  await page.evaluate(kAxe);
+  const found = await page.evaluate(() =>
+    (globalThis as unknown as { axe: { run(at: Document, how: object): Promise<AxeResults> } }).axe.run(document, {
+      runOnly: ['color-contrast'],
+    }),
+  );
+  return {
+    poor: found.violations.flatMap(({ nodes }) => nodes.map(({ html, failureSummary }) => `${html} ${failureSummary ?? ''}`)),
+    good: found.passes.flatMap(({ nodes }) => nodes).length,
+  };
 }
 
 /** Pairs of texts of one plot whose boxes overlap by more than a pixel. */
@@ -122,14 +139,9 @@ describe('report', () => {
     const { page } = await open(filled, 1240, scheme);
     await until('the plots', async () => (await page.locator('.plot svg').count()) > 1);
     await page.evaluate(() => document.querySelectorAll('details').forEach((fold) => (fold.open = true)));
-    await page.evaluate(kAxe);
-    const found = await page.evaluate(() =>
-      (globalThis as unknown as { axe: { run(at: Document, how: object): Promise<AxeResults> } }).axe.run(document, {
-        runOnly: ['color-contrast'],
-      }),
-    );
-    expect(found.violations.flatMap(({ nodes }) => nodes.map(({ html, failureSummary }) => `${html} ${failureSummary ?? ''}`))).toEqual([]);
-    expect(found.passes.flatMap(({ nodes }) => nodes).length).toBeGreaterThan(50);
+    const found = await contrasts(page);
+    expect(found.poor).toEqual([]);
+    expect(found.good).toBeGreaterThan(50);
     await page.context().close();
   });
 
@@ -208,6 +220,31 @@ describe('report', () => {
   it('LoadTemplate_Empty_SaysWhoFillsIt', async () => {
     const { page } = await open(kLoadTemplate, 800, 'light');
     expect(await page.locator('#report').innerText()).toContain('froxel load --report');
+    await page.context().close();
+  });
+
+  it.each([
+    [1280, 'light'],
+    [390, 'dark'],
+  ] as const)('Diff_%dPixels_%s_ShowsPairsSideBySide', async (width, scheme) => {
+    const { page, complaints, fetched } = await open(diffFilled, width, scheme);
+    expect(await page.locator('#pairs tbody tr').count()).toBe(3);
+    expect(await page.locator('#pairs td.bad').allInnerTexts()).toEqual(['failed', 'failed']);
+    const pair = page.locator('.pair');
+    expect(await pair.count()).toBe(1);
+    const divider = page.getByRole('slider');
+    await divider.focus();
+    await divider.press('Home');
+    expect(await pair.evaluate((frame) => frame.style.getPropertyValue('--at'))).toBe('0%');
+    await divider.press('End');
+    expect(await pair.evaluate((frame) => frame.style.getPropertyValue('--at'))).toBe('100%');
+    await page.getByRole('checkbox', { name: 'heat map of FLIP' }).check();
+    expect(await page.getByRole('img', { name: 'nave.png: heat map of FLIP' }).isVisible()).toBe(true);
+    expect(await page.getByRole('img', { name: 'nave.png: the picture' }).isVisible()).toBe(false);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width);
+    expect(complaints).toEqual([]);
+    expect(fetched).toEqual([pathToFileURL(diffFilled).href]);
+    expect((await contrasts(page)).poor).toEqual([]);
     await page.context().close();
   });
 });

@@ -1,5 +1,7 @@
 // The JSON of `froxel load`, schema froxel.load.v2 (server/app/load_report.h), as far as its report reads it.
 
+import { readReport } from './read';
+
 export const kLoadSchema = 'froxel.load.v2';
 
 export interface Times {
@@ -77,14 +79,4 @@ export interface LoadResults {
   readonly series: readonly LoadSecond[];
 }
 
-/** The results in a script element's text. Throws an Error for people: the empty template, another schema. */
-export function readLoad(text: string): LoadResults {
-  const results = JSON.parse(text) as LoadResults | null;
-  if (results === null) {
-    throw new Error('This is the empty template: `froxel load --report FILE.html` fills it with results.');
-  }
-  if (results.schema !== kLoadSchema) {
-    throw new Error(`The results are of schema "${results.schema}"; this page reads "${kLoadSchema}".`);
-  }
-  return results;
-}
+export const readLoad = (text: string): LoadResults => readReport(text, kLoadSchema, 'load');

@@ -1,6 +1,7 @@
 // The JSON of `froxel bench`, schema froxel.bench.v1 (tests/bench/results/README.md), as far as the report
 // reads it. Numbers that JSON cannot hold (NaN, infinity) come as null.
 
+import { readReport } from './read';
 import { words } from './words';
 
 export const kSchema = 'froxel.bench.v1';
@@ -140,19 +141,7 @@ export interface Results {
   readonly published: readonly Published[];
 }
 
-/** The results in a script element's text. Throws an Error for people: the empty template, another schema. */
-export function readResults(text: string): Results {
-  const results = JSON.parse(text) as Results | null;
-  if (results === null) {
-    throw new Error(
-      'This is the empty template: `froxel bench --report FILE.html` fills it with results.',
-    );
-  }
-  if (results.schema !== kSchema) {
-    throw new Error(`The results are of schema "${results.schema}"; this page reads "${kSchema}".`);
-  }
-  return results;
-}
+export const readResults = (text: string): Results => readReport(text, kSchema, 'bench');
 
 /** What a row's points are marked by: how the G-buffer is laid out, where there is one. */
 export function layoutOf({ settings }: Row): string {

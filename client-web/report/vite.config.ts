@@ -1,5 +1,5 @@
-// The reports of `froxel bench` and, with `--mode load`, of `froxel load`: each one file with script and
-// style inside, beside the page's other files. The command puts its JSON into the file's place for results.
+// The reports of `froxel bench` and, with `--mode load` or `--mode diff`, of `froxel load` and `froxel diff`: each one
+// file with script and style inside, beside the page's other files. The command puts its JSON into the file's place for results.
 import { fileURLToPath } from 'node:url';
 
 import { defineConfig } from 'vite';
@@ -14,6 +14,6 @@ export default defineConfig(({ mode }) => ({
     target: 'es2022',
     outDir: `${folder}../dist`,
     emptyOutDir: false, // the page's files are there
-    rollupOptions: { input: `${folder}${mode === 'load' ? 'load' : 'report'}.html` },
+    rollupOptions: { input: `${folder}${['load', 'diff'].includes(mode) ? mode : 'report'}.html` },
   },
 }));

@@ -4,7 +4,6 @@
 #include "app/load_arguments.h"
 #include "app/load_capacity.h"
 #include "app/load_early_stop.h"
-#include "app/load_junit.h"
 #include "app/load_report.h"
 #include "app/load_series.h"
 #include "app/load_verdict.h"
@@ -257,21 +256,6 @@ void requireFolders(const LoadOptions& options) {
     }
 }
 
-// `table` for a person, `report` where --json says.
-void print(const LoadOptions& options,
-           const std::string& table,
-           const nlohmann::ordered_json& report) {
-    const bool to_stdout = options.json == "-";
-    std::fputs(table.c_str(), to_stdout ? stderr : stdout);
-    std::fflush(stdout);
-    const std::string text = report.dump(2) + "\n";
-    if (to_stdout) {
-        std::fputs(text.c_str(), stdout);
-    } else if (!options.json.empty()) {
-        writeText(options.json, text);
-    }
-}
-
 int runPlain(const LoadOptions& options) {
     const auto requirements = requirementsOf(options.requirements);
     const std::string page =
@@ -280,7 +264,7 @@ int runPlain(const LoadOptions& options) {
     const Watched watched = watchRun(options, run, requirements);
     const LoadVerdict verdict = loadVerdict(requirements, watched.result);
     const auto report = loadReport(options, run, watched.result, verdict, watched.series);
-    print(options, loadTable(watched.result, verdict), report);
+    printResults(options.json, loadTable(watched.result, verdict), report);
     if (!options.report.empty()) {
         writeText(options.report, bench::fillReport(page, report).value());
     }
@@ -288,7 +272,7 @@ int runPlain(const LoadOptions& options) {
         writeText(options.histograms, histogramsOf(watched.result));
     }
     if (!options.junit.empty()) {
-        writeText(options.junit, junitOf(verdict, watched.result.seconds));
+        writeText(options.junit, junitOf("froxel load", casesOf(verdict), watched.result.seconds));
     }
     const auto broken = brokenLine(verdict);
     if (verdict.failure) {
@@ -338,8 +322,8 @@ int runFind(const LoadOptions& options) {
             }
         }
     }
-    print(options, capacityText(search, trials, stopped),
-          capacityReport(options, run, search, trials, stopped));
+    printResults(options.json, capacityText(search, trials, stopped),
+                 capacityReport(options, run, search, trials, stopped));
     if (stopped) {
         return kStoppedExitCode;
     }

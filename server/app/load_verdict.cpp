@@ -54,4 +54,12 @@ std::optional<std::string> brokenLine(const LoadVerdict& verdict) {
                           : std::optional(fmt::format("{}", fmt::join(faults, "; ")));
 }
 
+std::vector<JunitCase> casesOf(const LoadVerdict& verdict) {
+    std::vector<JunitCase> cases = {{"no viewer fails", verdict.failure.value_or("")}};
+    for (const load::Outcome& outcome : verdict.outcomes) {
+        cases.push_back({outcome.requirement, outcome.held ? "" : load::wordsOf(outcome)});
+    }
+    return cases;
+}
+
 } // namespace froxel::app

@@ -1,6 +1,7 @@
 // Whether what the viewers of `froxel load` measured is as required. Pure functions.
 #pragma once
 
+#include "app/junit.h"
 #include "load/load_run.h"
 #include "load/requirement.h"
 
@@ -23,5 +24,8 @@ struct LoadVerdict {
 
 // One line of all that is wrong; none: nothing is.
 [[nodiscard]] std::optional<std::string> brokenLine(const LoadVerdict& verdict);
+
+// A test case for each requirement, and one that no viewer failed.
+[[nodiscard]] std::vector<JunitCase> casesOf(const LoadVerdict& verdict);
 
 } // namespace froxel::app

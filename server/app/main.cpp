@@ -55,6 +55,7 @@ struct Run {
         app::runInfo(options);
         return 0;
     }
+    int operator()(const app::DiffOptions& options) const { return app::runDiff(options); }
     int operator()(const app::ProbeOptions& options) const { return app::runProbe(options); }
     int operator()(const app::BakeOptions& options) const { return app::runBake(options); }
     int operator()(const app::SceneOptions& options) const {

@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "app/command_builder.h"
+#include "app/diff_arguments.h"
 #include "app/load_arguments.h"
 #include "app/option_sources.h"
 #include "app/probe_arguments.h"
@@ -37,7 +38,8 @@ constexpr settings::Range<double> kPairsRange{"pairs", 0.0, 1e18};
 constexpr const char* kExitCodes =
     "Exit codes: 0 success, 1 other error, 2 usage, 3 scene, 4 device, 5 address in use, 6 device "
     "lost while serving, 99 broken requirement of load. bench also exits with 1 if a picture is "
-    "inexact or a compared run is slower, and load if a viewer failed. Both exit with 130 after a "
+    "inexact or a compared run is slower, load if a viewer failed, and diff if pictures differ by "
+    "more than is allowed. bench and load exit with 130 after a "
     "signal.";
 
 // What the subcommands fill. The one that was given copies its own to `result`.
@@ -47,6 +49,7 @@ struct Targets {
     BenchOptions bench;
     LoadOptions load;
     InfoOptions info;
+    DiffOptions diff;
     SceneOptions scene;
     ProbeOptions probe;
     BakeOptions bake;
@@ -489,6 +492,9 @@ Options parseOptions(int argc, const char* const* argv, const Environment& envir
     addBench(app, targets);
     addLoad(app, targets);
     addInfo(app, targets);
+    CommandBuilder diff(app, "diff", "Measure the difference between pictures, or folders of them");
+    addDiffArguments(diff, targets.diff);
+    finish(diff, targets.diff, LogLevel::kWarn, targets);
     addScene(app, targets);
     addBake(app, targets);
     CommandBuilder probe(app, "probe", "Ask a running server's health: exit code 0 or 1");
@@ -498,7 +504,7 @@ Options parseOptions(int argc, const char* const* argv, const Environment& envir
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) {
             throw CLI::RequiredError(
-                "a subcommand (serve, render, bench, load, info, scene, bake or probe)");
+                "a subcommand (serve, render, bench, load, info, diff, scene, bake or probe)");
         }
         if (const auto* render = std::get_if<RenderOptions>(&targets.result.command)) {
             checkRender(*app.get_subcommand("render"), *render);

@@ -4,6 +4,7 @@
 #include "app/bake_command.h"
 #include "app/bench_command.h"
 #include "app/configuration.h"
+#include "app/diff_command.h"
 #include "app/info_command.h"
 #include "app/load_command.h"
 #include "app/log_setup.h"
@@ -29,6 +30,7 @@ struct Options {
                  BenchOptions,
                  LoadOptions,
                  InfoOptions,
+                 DiffOptions,
                  SceneOptions,
                  ProbeOptions,
                  BakeOptions>

@@ -1,8 +1,10 @@
 #include "app/output_file.h"
 
+#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -37,6 +39,20 @@ void writeText(const fs::path& path, const std::string& text) {
     if (!file) {
         throw StartupError(
             {ErrorCode::kIo, fmt::format("cannot write '{}': {}", path.string(), systemMessage())});
+    }
+}
+
+void printResults(const fs::path& json,
+                  const std::string& table,
+                  const nlohmann::ordered_json& report) {
+    const bool to_stdout = json == "-";
+    std::fputs(table.c_str(), to_stdout ? stderr : stdout);
+    std::fflush(stdout);
+    const std::string text = report.dump(2) + "\n";
+    if (to_stdout) {
+        std::fputs(text.c_str(), stdout);
+    } else if (!json.empty()) {
+        writeText(json, text);
     }
 }
 

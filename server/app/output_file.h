@@ -3,6 +3,8 @@
 
 #include "core/error.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <filesystem>
 #include <string>
 
@@ -13,6 +15,12 @@ void requireFolderOf(const std::filesystem::path& file);
 
 // Throws StartupError(kIo), naming the file.
 void writeText(const std::filesystem::path& path, const std::string& text);
+
+// Results of a command: `table` for a person on standard output, `report` to the file. "-": the
+// report on standard output, the table on standard error; empty: no report. Throws as writeText().
+void printResults(const std::filesystem::path& json,
+                  const std::string& table,
+                  const nlohmann::ordered_json& report);
 
 // Errors: kIo, naming the file.
 [[nodiscard]] Result<std::string> readText(const std::filesystem::path& path);

@@ -3,40 +3,12 @@
 #include "core/assert.h"
 #include "core/clock.h"
 #include "encode/jpeg_encoder.h"
+#include "jpeg/reader.h"
 
-#include <turbojpeg.h>
-
-#include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace froxel::bench {
-
-namespace {
-
-// RGBA8 without padding.
-Result<std::vector<std::byte>>
-decode(const std::vector<std::byte>& jpeg, uint32_t width_px, uint32_t height_px) {
-    const std::unique_ptr<void, int (*)(tjhandle)> handle(tjInitDecompress(), tjDestroy);
-    const auto failed = [&] {
-        return Error{ErrorCode::kIo, std::string("TurboJPEG: ") + tjGetErrorStr2(handle.get())};
-    };
-    if (!handle) {
-        return failed();
-    }
-    std::vector<std::byte> rgba(size_t{4} * width_px * height_px);
-    const int status = tjDecompress2(
-        handle.get(), reinterpret_cast<const unsigned char*>(jpeg.data()), jpeg.size(),
-        reinterpret_cast<unsigned char*>(rgba.data()), static_cast<int>(width_px), 0,
-        static_cast<int>(height_px), TJPF_RGBA, TJFLAG_ACCURATEDCT);
-    if (status != 0) {
-        return failed();
-    }
-    return rgba;
-}
-
-} // namespace
 
 Result<StreamError>
 measureStream(const PixelView& shown, const settings::Encoding& encoding, size_t encode_count) {
@@ -52,11 +24,11 @@ measureStream(const PixelView& shown, const settings::Encoding& encoding, size_t
     if (!jpeg) {
         return jpeg.error();
     }
-    const auto decoded = decode(jpeg.value(), shown.width_px, shown.height_px);
-    if (!decoded) {
-        return decoded.error();
+    std::vector<std::byte> decoded(size_t{4} * shown.width_px * shown.height_px);
+    if (const auto read = jpeg::readPixels(jpeg.value(), decoded); !read) {
+        return read.error();
     }
-    const PixelView seen{decoded.value().data(), shown.width_px, shown.height_px,
+    const PixelView seen{decoded.data(), shown.width_px, shown.height_px,
                          size_t{4} * shown.width_px};
     const auto bytes = jpeg.value().size();
     return StreamError{.encoding = encoding,

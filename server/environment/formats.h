@@ -11,8 +11,4 @@ namespace froxel::environment {
 [[nodiscard]] bool isRadiance(std::span<const std::byte> file);
 [[nodiscard]] Result<Panorama> readRadiance(std::span<const std::byte> file);
 
-[[nodiscard]] bool isExr(std::span<const std::byte> file);
-// Channels R, G and B, or Y alone, of half or float; scan lines or tiles, of any compression.
-[[nodiscard]] Result<Panorama> readExr(std::span<const std::byte> file);
-
 } // namespace froxel::environment

@@ -2,9 +2,11 @@
 
 #include "core/text.h"
 #include "environment/formats.h"
+#include "exr/reader.h"
 
 #include <cmath>
 #include <new>
+#include <utility>
 
 namespace froxel::environment {
 namespace {
@@ -14,8 +16,12 @@ Result<Panorama> decode(std::span<const std::byte> file) {
         if (isRadiance(file)) {
             return readRadiance(file);
         }
-        if (isExr(file)) {
-            return readExr(file);
+        if (exr::isExr(file)) {
+            auto picture = exr::read(file, checkSize);
+            if (!picture) {
+                return picture.error();
+            }
+            return Panorama{std::move(picture->image), std::move(picture->warnings)};
         }
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::kCapacity, "does not fit into memory"};

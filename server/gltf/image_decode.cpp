@@ -3,34 +3,21 @@
 #include "core/text.h"
 #include "gltf/failure.h"
 #include "gltf/limits.h"
+#include "jpeg/reader.h"
 #include "ktx2/reader.h"
 #include "png/reader.h"
 
-#include <turbojpeg.h>
 #include <webp/decode.h>
 
 #include <cstring>
-#include <memory>
 #include <vector>
 
 namespace froxel::gltf {
 namespace {
 
-struct DestroyDecompressor {
-    void operator()(void* handle) const { tjDestroy(handle); }
-};
-using Decompressor = std::unique_ptr<void, DestroyDecompressor>;
-
-// A progressive file of a few bytes may have thousands of scans, each over every pixel.
-constexpr int kLimitScans = TJFLAG_LIMITSCANS;
-
 bool beginsWith(std::span<const std::byte> file, std::string_view bytes, size_t offset = 0) {
     return file.size() >= offset + bytes.size() &&
            std::memcmp(file.data() + offset, bytes.data(), bytes.size()) == 0;
-}
-
-bool isJpeg(std::span<const std::byte> file) {
-    return beginsWith(file, "\xFF\xD8\xFF");
 }
 
 bool isWebp(std::span<const std::byte> file) {
@@ -53,47 +40,28 @@ failBroken(const std::string& user, const char* format, const std::string& reaso
                                               " bytes); expected PNG, JPEG, WebP or KTX2");
 }
 
-// Reads the header; `decoder` is ready for the pixels afterwards.
-ImageSize
-jpegSize(const Decompressor& decoder, std::span<const std::byte> file, const std::string& user) {
-    int width = 0;
-    int height = 0;
-    int subsampling = 0;
-    int colorspace = 0;
-    if (decoder == nullptr || tjDecompressHeader3(decoder.get(), data(file), file.size(), &width,
-                                                  &height, &subsampling, &colorspace) != 0) {
-        failBroken(user, "JPEG", tjGetErrorStr2(decoder.get()));
+[[noreturn]] void failJpeg(const Error& error, const std::string& user) {
+    if (error.code == ErrorCode::kUnsupported) {
+        throw Unusable(warning::kImageFormat, user + " " + error.message);
     }
-    if (width < 1 || height < 1) { // what the library says of a file that ends too soon
-        failBroken(user, "JPEG", "its header is cut off");
+    failBroken(user, "JPEG", error.message);
+}
+
+ImageSize jpegSize(std::span<const std::byte> file, const std::string& user) {
+    const auto size = jpeg::readSize(file);
+    if (!size) {
+        failJpeg(size.error(), user);
     }
-    // A block of 64 pixels takes a bit at least.
-    constexpr uint64_t kPixelsOfByte = 512;
-    if (uint64_t(width) * uint64_t(height) > file.size() * kPixelsOfByte) {
-        failBroken(user, "JPEG",
-                   std::to_string(file.size()) + " bytes cannot hold the " + std::to_string(width) +
-                       "x" + std::to_string(height) + " pixels that its header tells");
-    }
-    if (colorspace == TJCS_CMYK || colorspace == TJCS_YCCK) {
-        throw Unusable(warning::kImageFormat, user + " is a CMYK JPEG; expected RGB or grey");
-    }
-    return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+    return {size->width_px, size->height_px};
 }
 
 std::string
 decodeJpeg(std::span<const std::byte> file, const std::string& user, scene::Image& image) {
-    const Decompressor decoder(tjInitDecompress());
-    const ImageSize size = jpegSize(decoder, file, user);
-    auto* pixels = reinterpret_cast<unsigned char*>(image.rgba8.data());
-    if (tjDecompress2(decoder.get(), data(file), file.size(), pixels,
-                      static_cast<int>(size.width_px), 0, static_cast<int>(size.height_px),
-                      TJPF_RGBA, kLimitScans) == 0) {
-        return "";
+    const auto warning = jpeg::readPixels(file, image.rgba8.writable());
+    if (!warning) {
+        failJpeg(warning.error(), user);
     }
-    if (tjGetErrorCode(decoder.get()) == TJERR_WARNING) {
-        return user + ": " + printable(tjGetErrorStr2(decoder.get()));
-    }
-    failBroken(user, "JPEG", tjGetErrorStr2(decoder.get()));
+    return warning->empty() ? "" : user + ": " + *warning;
 }
 
 ImageSize webpSize(std::span<const std::byte> file, const std::string& user) {
@@ -150,7 +118,7 @@ void decodePng(std::span<const std::byte> file, const std::string& user, scene::
 
 std::string_view imageType(std::span<const std::byte> file) {
     return png::isPng(file)     ? "image/png"
-           : isJpeg(file)       ? "image/jpeg"
+           : jpeg::isJpeg(file) ? "image/jpeg"
            : isWebp(file)       ? "image/webp"
            : ktx2::isKtx2(file) ? "image/ktx2"
                                 : "";
@@ -164,8 +132,8 @@ ImageSize imageSize(std::span<const std::byte> file, const std::string& user) {
             failBroken(user, "PNG", told.error().message);
         }
         size = {told->width_px, told->height_px};
-    } else if (isJpeg(file)) {
-        size = jpegSize(Decompressor(tjInitDecompress()), file, user);
+    } else if (jpeg::isJpeg(file)) {
+        size = jpegSize(file, user);
     } else if (isWebp(file)) {
         size = webpSize(file, user);
     } else if (ktx2::isKtx2(file)) {
@@ -193,7 +161,7 @@ std::string decodeImage(std::span<const std::byte> file,
     for (uint32_t level = 1; level < size.level_count; ++level) {
         image.mips[level - 1] = room(size.levelBytes(level));
     }
-    if (isJpeg(file)) {
+    if (jpeg::isJpeg(file)) {
         return decodeJpeg(file, user, image);
     }
     if (isWebp(file)) {

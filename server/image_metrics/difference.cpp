@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <optional>
 #include <vector>
 
@@ -94,7 +95,55 @@ void addStep(Steps& steps, const PixelError& from, const PixelError& to) {
     ++steps.count;
 }
 
+// `beyond`: whether a pixel counts; `at` gives the values of one.
+template <class Picture, class Beyond, class At>
+Differing countDiffering(const Picture& picture,
+                         const Picture& reference,
+                         const Beyond& beyond,
+                         const At& at) {
+    expectAlike(picture, reference);
+    Differing differing;
+    for (uint32_t y = 0; y < picture.height_px; ++y) {
+        for (uint32_t x = 0; x < picture.width_px; ++x) {
+            if (!beyond(x, y)) {
+                continue;
+            }
+            ++differing.count;
+            if (!differing.first) {
+                differing.first = {x, y, at(picture, x, y), at(reference, x, y)};
+            }
+        }
+    }
+    return differing;
+}
+
 } // namespace
+
+Differing differing(const LinearImage& picture, const LinearImage& reference, double tolerance) {
+    const auto at = [](const LinearImage& image, uint32_t x, uint32_t y) {
+        return pixelAt(image, size_t{y} * image.width_px + x);
+    };
+    const auto beyond = [&](uint32_t x, uint32_t y) {
+        const Pixel a = at(picture, x, y);
+        const Pixel b = at(reference, x, y);
+        // Of a value that is not finite no comparison holds.
+        return !std::ranges::all_of(std::array{0, 1, 2}, [&](int c) {
+            const auto i = static_cast<size_t>(c);
+            return std::abs(double{a[i]} - double{b[i]}) <= tolerance;
+        });
+    };
+    return countDiffering(picture, reference, beyond, at);
+}
+
+Differing differing(const PixelView& picture, const PixelView& reference, uint32_t tolerance) {
+    const auto beyond = [&](uint32_t x, uint32_t y) {
+        const auto a = bytesAt(picture, x, y);
+        const auto b = bytesAt(reference, x, y);
+        const auto off = [&](size_t c) { return static_cast<uint32_t>(std::abs(a[c] - b[c])); };
+        return std::max({off(0), off(1), off(2)}) > tolerance;
+    };
+    return countDiffering(picture, reference, beyond, unitPixel);
+}
 
 DifferenceStats
 linearDifference(const LinearImage& picture, const LinearImage& reference, double peak) {

@@ -195,6 +195,10 @@ float linearFromSrgb(float srgb) {
     return srgb > 0.04045F ? std::pow((srgb + 0.055F) / 1.055F, 2.4F) : srgb / 12.92F;
 }
 
+float srgbFromLinear(float linear) {
+    return linear > 0.0031308F ? 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F : linear * 12.92F;
+}
+
 Rgb huntAdjustedLab(const Rgb& linear) {
     const Rgb xyz = xyzOf(linear);
     const Rgb lab = opponentOf({labCurve(xyz[0] / kWhiteXyz[0]), labCurve(xyz[1] / kWhiteXyz[1]),

@@ -19,6 +19,7 @@ using RgbPlanes = std::array<Plane<float>, 3>;
 
 // sRGB's transfer function, IEC 61966-2-1.
 [[nodiscard]] float linearFromSrgb(float srgb);
+[[nodiscard]] float srgbFromLinear(float linear);
 
 // L*a*b* (D65) with a* and b* scaled by L*/100 for the Hunt effect.
 [[nodiscard]] Rgb huntAdjustedLab(const Rgb& linear);

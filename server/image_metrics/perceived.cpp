@@ -1,13 +1,12 @@
-#include "core/assert.h"
 #include "image_metrics/flip.h"
 #include "image_metrics/picture_error.h"
 #include "image_metrics/pixels.h"
 #include "image_metrics/structural_similarity.h"
+#include "interface/heat_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -54,25 +53,6 @@ Plane<double> lumaOf(const PixelView& view) {
     return luma;
 }
 
-uint64_t countAboveOneStep(const PixelView& picture, const PixelView& reference) {
-    uint64_t count = 0;
-    for (uint32_t y = 0; y < picture.height_px; ++y) {
-        for (uint32_t x = 0; x < picture.width_px; ++x) {
-            const auto a = bytesAt(picture, x, y);
-            const auto b = bytesAt(reference, x, y);
-            const bool above =
-                std::abs(a[0] - b[0]) > 1 || std::abs(a[1] - b[1]) > 1 || std::abs(a[2] - b[2]) > 1;
-            count += above ? 1U : 0U;
-        }
-    }
-    return count;
-}
-
-double meanOf(const Plane<float>& plane) {
-    return std::accumulate(plane.values.begin(), plane.values.end(), 0.0) /
-           static_cast<double>(plane.values.size());
-}
-
 // Narkowicz's fit of the ACES curve, "ACES Filmic Tone Mapping Curve", 2016, his scale of 0.6
 // included: (A x^2 + B x) / (C x^2 + D x + E), x linear radiance times exposure.
 constexpr double kAcesA = 0.6 * 0.6 * 2.51;
@@ -99,10 +79,16 @@ constexpr double kLeastMedian = std::numeric_limits<float>::epsilon();
 
 // log2 of what radiance is multiplied by, a stop or less apart.
 std::vector<double> exposuresFor(const LinearImage& reference) {
-    std::vector<double> luminances(reference.rgb.size() / 3);
-    for (size_t i = 0; i < luminances.size(); ++i) {
+    std::vector<double> luminances;
+    luminances.reserve(reference.rgb.size() / 3);
+    for (size_t i = 0; i < reference.rgb.size() / 3; ++i) {
         const auto [r, g, b] = pixelAt(reference, i);
-        luminances[i] = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        if (isFinite({r, g, b})) {
+            luminances.push_back(0.2126 * r + 0.7152 * g + 0.0722 * b);
+        }
+    }
+    if (luminances.empty()) {
+        return {0};
     }
     const size_t middle = luminances.size() / 2;
     const auto upper = luminances.begin() + static_cast<std::ptrdiff_t>(middle);
@@ -130,7 +116,8 @@ flip::RgbPlanes toneMapped(const LinearImage& image, double exposure) {
     const double factor = std::exp2(exposure);
     for (size_t i = 0; i < image.rgb.size() / 3; ++i) {
         for (size_t c = 0; c < 3; ++c) {
-            const double radiance = std::max(image.rgb[3 * i + c], 0.0F);
+            const double radiance =
+                std::clamp(image.rgb[3 * i + c], 0.0F, std::numeric_limits<float>::max());
             planes[c].values[i] = static_cast<float>(aces(factor * radiance));
         }
     }
@@ -144,18 +131,32 @@ bool allFinite(const LinearImage& image) {
 
 } // namespace
 
-PerceivedStats perceivedDifference(const PixelView& picture, const PixelView& reference) {
-    expectAlike(picture, reference);
-    return {.above_1_255_count = countAboveOneStep(picture, reference),
-            .mssim = meanStructuralSimilarity(lumaOf(picture), lumaOf(reference)),
-            .flip = meanOf(
-                flip::errors(linearPlanes(picture), linearPlanes(reference), kPixelsPerDegree))};
+double meanOf(const Plane<float>& plane) {
+    return std::accumulate(plane.values.begin(), plane.values.end(), 0.0) /
+           static_cast<double>(plane.values.size());
 }
 
-double hdrFlip(const LinearImage& picture, const LinearImage& reference) {
+double structuralSimilarity(const PixelView& picture, const PixelView& reference) {
+    expectAlike(picture, reference);
+    return meanStructuralSimilarity(lumaOf(picture), lumaOf(reference));
+}
+
+Plane<float> flipErrors(const PixelView& picture, const PixelView& reference) {
+    expectAlike(picture, reference);
+    return flip::errors(linearPlanes(picture), linearPlanes(reference), kPixelsPerDegree);
+}
+
+PerceivedStats perceivedDifference(const PixelView& picture, const PixelView& reference) {
+    return {.above_1_255_count = differing(picture, reference, 1).count,
+            .mssim = structuralSimilarity(picture, reference),
+            .flip = meanOf(flipErrors(picture, reference))};
+}
+
+std::optional<Plane<float>> hdrFlipErrors(const LinearImage& picture,
+                                          const LinearImage& reference) {
     expectAlike(picture, reference);
     if (!allFinite(picture) || !allFinite(reference)) {
-        return std::numeric_limits<double>::quiet_NaN();
+        return std::nullopt;
     }
     auto worst = planesLike(picture.width_px, picture.height_px)[0];
     for (const double exposure : exposuresFor(reference)) {
@@ -164,7 +165,39 @@ double hdrFlip(const LinearImage& picture, const LinearImage& reference) {
         std::transform(errors.values.begin(), errors.values.end(), worst.values.begin(),
                        worst.values.begin(), [](float a, float b) { return std::max(a, b); });
     }
-    return meanOf(worst);
+    return worst;
+}
+
+double hdrFlip(const LinearImage& picture, const LinearImage& reference) {
+    const auto errors = hdrFlipErrors(picture, reference);
+    return errors ? meanOf(*errors) : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<std::byte> shownAsReference(const LinearImage& picture, const LinearImage& reference) {
+    const auto exposures = exposuresFor(reference);
+    const auto planes = toneMapped(picture, 0.5 * (exposures.front() + exposures.back()));
+    std::vector<std::byte> rgba8(planes[0].values.size() * 4, std::byte{255});
+    for (size_t i = 0; i < planes[0].values.size(); ++i) {
+        for (size_t c = 0; c < 3; ++c) {
+            const float value = planes[c].values[i];
+            rgba8[4 * i + c] = std::byte{static_cast<uint8_t>(
+                std::isnan(value) ? 0 : std::lround(255 * flip::srgbFromLinear(value)))};
+        }
+    }
+    return rgba8;
+}
+
+std::vector<std::byte> heatMap(const Plane<float>& errors) {
+    std::vector<std::byte> rgba8;
+    rgba8.reserve(errors.values.size() * 4);
+    for (const float error : errors.values) {
+        const uint32_t color = io::heatColor(static_cast<uint32_t>(
+            std::lround(std::clamp(error, 0.0F, 1.0F) * static_cast<float>(io::kHeatTop))));
+        for (uint32_t shift = 0; shift < 32; shift += 8) {
+            rgba8.push_back(std::byte{static_cast<uint8_t>((color >> shift) & 255)});
+        }
+    }
+    return rgba8;
 }
 
 } // namespace froxel::image_metrics

@@ -4,9 +4,14 @@
 
 #include "core/linear_image.h"
 #include "core/pixel_view.h"
+#include "image_metrics/filter.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <vector>
 
 namespace froxel::image_metrics {
 
@@ -49,12 +54,49 @@ linearDifference(const LinearImage& picture, const LinearImage& reference, doubl
 [[nodiscard]] PerceivedStats perceivedDifference(const PixelView& picture,
                                                  const PixelView& reference);
 
-// Mean HDR-FLIP: Andersson, Nilsson, Shirley and Akenine-Moeller, "Visualizing Errors in Rendered
-// High Dynamic Range Images", Eurographics 2021: the largest LDR-FLIP of each pixel over a range of
-// exposures under the ACES curve (Narkowicz 2016). The reference's brightest and median luminance
-// reach 0.85 at the first and the last exposure; a stop apart, at least two. Negative values count
-// as 0. NaN where either picture has a non-finite value.
+// PerceivedStats::mssim alone.
+[[nodiscard]] double structuralSimilarity(const PixelView& picture, const PixelView& reference);
+
+// Each pixel's LDR-FLIP, 0..1, at kPixelsPerDegree; its mean is PerceivedStats::flip.
+[[nodiscard]] Plane<float> flipErrors(const PixelView& picture, const PixelView& reference);
+
+// Each pixel's HDR-FLIP, 0..1: Andersson, Nilsson, Shirley and Akenine-Moeller, "Visualizing Errors
+// in Rendered High Dynamic Range Images", Eurographics 2021: the largest LDR-FLIP of each pixel
+// over a range of exposures under the ACES curve (Narkowicz 2016). The reference's brightest and
+// median luminance reach 0.85 at the first and the last exposure; a stop apart, at least two.
+// Negative values count as 0. None where either picture has a non-finite value.
+[[nodiscard]] std::optional<Plane<float>> hdrFlipErrors(const LinearImage& picture,
+                                                        const LinearImage& reference);
+// Their mean; NaN where there are none.
 [[nodiscard]] double hdrFlip(const LinearImage& picture, const LinearImage& reference);
+
+// A picture as HDR-FLIP shows it at the middle of the range of exposures that `reference` asks for.
+// [height][width][4], alpha 255; NaN becomes 0.
+[[nodiscard]] std::vector<std::byte> shownAsReference(const LinearImage& picture,
+                                                      const LinearImage& reference);
+
+[[nodiscard]] double meanOf(const Plane<float>& plane);
+
+// The first pixel, row by row, with a channel that differs by more than `tolerance` or is not
+// finite in one of the pictures.
+struct PixelDifference {
+    uint32_t x = 0;
+    uint32_t y = 0;
+    std::array<float, 3> picture{}; // in the unit of DifferenceStats
+    std::array<float, 3> reference{};
+};
+struct Differing {
+    uint64_t count = 0;
+    std::optional<PixelDifference> first; // none: count is 0
+};
+// `tolerance` in linear radiance, of 8-bit pictures in 1/255 steps.
+[[nodiscard]] Differing
+differing(const LinearImage& picture, const LinearImage& reference, double tolerance);
+[[nodiscard]] Differing
+differing(const PixelView& picture, const PixelView& reference, uint32_t tolerance);
+
+// Errors of 0..1 in the colours of interface/heat_map.h. [height][width][4], alpha 255.
+[[nodiscard]] std::vector<std::byte> heatMap(const Plane<float>& errors);
 
 // Do tiles show in the error? Mean absolute step of the error (picture - reference) between
 // neighbours across borders of tiles, over its mean elsewhere. 0: no error; 1: borders do not stand

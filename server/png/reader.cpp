@@ -32,23 +32,24 @@ class Reader {
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 
-    [[nodiscard]] Result<Size> header() {
-        Size size;
+    [[nodiscard]] Result<Header> header() {
+        Header header;
         uint64_t packed_bytes = 0;
         const size_t file_bytes = left_.size();
-        if (info_ == nullptr || !header(png_, info_, &left_, &size, &packed_bytes)) {
+        if (info_ == nullptr || !read(png_, info_, &left_, &header, &packed_bytes)) {
             return failure_.error();
         }
+        const PictureSize& size = header.size;
         if (packed_bytes > file_bytes * kDeflateRatio) {
             return Error{ErrorCode::kIo, numberText(file_bytes) + " bytes cannot hold the " +
                                              numberText(size.width_px) + "x" +
                                              numberText(size.height_px) +
                                              " pixels that its header tells"};
         }
-        return size;
+        return header;
     }
     // After the header.
-    [[nodiscard]] Result<void> pixels(const Size& size, std::span<std::byte> rgba8) {
+    [[nodiscard]] Result<void> pixels(const PictureSize& size, std::span<std::byte> rgba8) {
         const size_t row_bytes = size.width_px * kChannels;
         std::vector<png_bytep> rows(size.height_px);
         for (size_t y = 0; y < rows.size(); ++y) {
@@ -62,11 +63,11 @@ class Reader {
 
   private:
     // The parts that libpng may leave by longjmp: no object with a destructor lives in them.
-    static bool header(png_structp png,
-                       png_infop info,
-                       std::span<const std::byte>* left,
-                       Size* size,
-                       uint64_t* packed_bytes) {
+    static bool read(png_structp png,
+                     png_infop info,
+                     std::span<const std::byte>* left,
+                     Header* header,
+                     uint64_t* packed_bytes) {
         if (setjmp(png_jmpbuf(png)) != 0) {
             return false;
         }
@@ -75,9 +76,9 @@ class Reader {
         png_set_chunk_cache_max(png, 128);
         png_set_read_fn(png, left, readBytes);
         png_read_info(png, info);
-        size->width_px = png_get_image_width(png, info);
-        size->height_px = png_get_image_height(png, info);
-        *packed_bytes = uint64_t{png_get_rowbytes(png, info)} * size->height_px;
+        header->size = {png_get_image_width(png, info), png_get_image_height(png, info)};
+        header->bits_per_channel = png_get_bit_depth(png, info);
+        *packed_bytes = uint64_t{png_get_rowbytes(png, info)} * header->size.height_px;
         return true;
     }
     static bool pixels(png_structp png, png_infop info, png_bytepp rows, size_t row_bytes) {
@@ -111,22 +112,28 @@ bool isPng(std::span<const std::byte> file) {
            png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, kSignatureBytes) == 0;
 }
 
-Result<Size> readSize(std::span<const std::byte> file) {
+Result<Header> readHeader(std::span<const std::byte> file) {
     return Reader(file).header();
+}
+
+Result<PictureSize> readSize(std::span<const std::byte> file) {
+    const auto header = readHeader(file);
+    return header ? Result<PictureSize>(header->size) : header.error();
 }
 
 Result<void> readPixels(std::span<const std::byte> file, std::span<std::byte> rgba8) {
     Reader reader(file);
-    const auto size = reader.header();
-    if (!size) {
-        return size.error();
+    const auto header = reader.header();
+    if (!header) {
+        return header.error();
     }
-    if (rgba8.size() != size_t{size->width_px} * size->height_px * kChannels) {
-        return Error{ErrorCode::kInvalidArgument,
-                     "PNG of " + numberText(size->width_px) + "x" + numberText(size->height_px) +
-                         " pixels into " + numberText(rgba8.size()) + " bytes"};
+    const PictureSize& size = header->size;
+    if (rgba8.size() != size.pixelCount() * kChannels) {
+        return Error{ErrorCode::kInvalidArgument, "PNG of " + numberText(size.width_px) + "x" +
+                                                      numberText(size.height_px) + " pixels into " +
+                                                      numberText(rgba8.size()) + " bytes"};
     }
-    return reader.pixels(*size, rgba8);
+    return reader.pixels(size, rgba8);
 }
 
 } // namespace froxel::png

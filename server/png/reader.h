@@ -3,24 +3,24 @@
 #pragma once
 
 #include "core/error.h"
+#include "core/picture_size.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 namespace froxel::png {
 
-struct Size {
-    uint32_t width_px = 0;
-    uint32_t height_px = 0;
-};
-
 // By the signature alone.
 [[nodiscard]] bool isPng(std::span<const std::byte> file);
 
-// By the header alone; sides are 1 to 2^31 - 1. Errors: kIo with libpng's reason, where it is
-// broken. Any thread.
-[[nodiscard]] Result<Size> readSize(std::span<const std::byte> file);
+struct Header {
+    PictureSize size;              // sides are 1 to 2^31 - 1
+    uint32_t bits_per_channel = 8; // 1, 2, 4, 8 or 16
+};
+
+// Errors: kIo with libpng's reason, where it is broken. Any thread.
+[[nodiscard]] Result<Header> readHeader(std::span<const std::byte> file);
+[[nodiscard]] Result<PictureSize> readSize(std::span<const std::byte> file);
 
 // [height][width][4], top row first: grey and palette become RGB, no alpha becomes 255, 16 bits
 // become 8; colour profiles and gamma are ignored. `rgba8` has exactly the file's size; where the

@@ -4,51 +4,31 @@
 //   out
 #include "compare/clipped.h"
 #include "core/error.h"
+#include "diff/picture.h"
 #include "image_metrics/picture_error.h"
-#include "png/reader.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <exception>
-#include <fstream>
-#include <iterator>
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
+#include <variant>
 
 namespace froxel::test {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Picture {
-    png::Size size;
-    std::vector<std::byte> rgba8;
-
-    [[nodiscard]] PixelView view() const {
-        return {rgba8.data(), size.width_px, size.height_px, size_t{4} * size.width_px};
-    }
-};
-
 // Throws StartupError, naming the file.
-Picture read(const std::string& path) {
-    const auto told = [&path](const Error& error) {
-        return StartupError({error.code, path + ": " + error.message});
-    };
-    std::ifstream in(path, std::ios::binary);
-    const std::vector<char> file(std::istreambuf_iterator<char>(in), {});
-    const auto bytes = std::as_bytes(std::span(file));
-    const auto size = png::readSize(bytes);
-    if (!size) {
-        throw told(size.error());
+diff::ShownPicture read(const std::string& path) {
+    auto file = diff::read(path).value();
+    auto* shown = std::get_if<diff::ShownPicture>(&file.picture);
+    if (shown == nullptr) {
+        throw StartupError({ErrorCode::kUnsupported, path + " holds radiance; expected colours"});
     }
-    Picture picture{*size, std::vector<std::byte>(size_t{4} * size->width_px * size->height_px)};
-    if (const auto pixels = png::readPixels(bytes, picture.rgba8); !pixels) {
-        throw told(pixels.error());
-    }
-    return picture;
+    return std::move(*shown);
 }
 
 // The share of pixels in which one of the pictures is not as in its first pixel, which is
@@ -86,9 +66,9 @@ Json clipped(const PixelView& picture, const PixelView& depth_view) {
 }
 
 int run(const std::string_view what, const std::string& first, const std::string& second) {
-    const Picture a = read(first);
-    const Picture b = read(second);
-    if (a.size.width_px != b.size.width_px || a.size.height_px != b.size.height_px) {
+    const auto a = read(first);
+    const auto b = read(second);
+    if (a.size != b.size) {
         std::fprintf(stderr, "%s has %ux%u pixels, %s %ux%u; expected one size\n", first.c_str(),
                      a.size.width_px, a.size.height_px, second.c_str(), b.size.width_px,
                      b.size.height_px);

@@ -3,8 +3,8 @@
 #include "core/assert.h"
 #include "formats/scene_loader.h"
 #include "fuzz/target.h"
-#include "fuzz/temp_folder.h"
 #include "support/scene_promises.h"
+#include "support/temp_folder.h"
 
 #include <fstream>
 #include <map>
@@ -19,7 +19,7 @@ extern "C" const char* __lsan_default_options() {
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace froxel;
-    static const fuzz::TempFolder folder("formats");
+    static const test::TempFolder folder("formats");
     static const std::map<char, std::string> kNames = {
         {'o', "scene.obj"}, {'p', "scene.ply"}, {'s', "scene.stl"}, {'3', "scene.3mf"}};
     static const bool ready = [] {

@@ -2,9 +2,9 @@
 // to a file outside: a scene that can be drawn or one line, and the file outside is never opened.
 #include "core/assert.h"
 #include "fuzz/target.h"
-#include "fuzz/temp_folder.h"
 #include "gltf/gltf_loader.h"
 #include "support/scene_promises.h"
+#include "support/temp_folder.h"
 
 #include <fstream>
 #include <sys/inotify.h>
@@ -51,7 +51,7 @@ class Scenes {
     [[nodiscard]] std::filesystem::path inside() const { return folder_.path() / "scene"; }
     [[nodiscard]] std::filesystem::path outside() const { return folder_.path() / "secret.bin"; }
 
-    TempFolder folder_{"froxel_fuzz_gltf"};
+    test::TempFolder folder_{"froxel_fuzz_gltf"};
     int watch_ = -1;
 };
 

@@ -1,10 +1,10 @@
 // A request's header as HttpSession reads it, answered by both addresses: routes, files, origins.
 #include "core/assert.h"
 #include "fuzz/target.h"
-#include "fuzz/temp_folder.h"
 #include "net/admin_site.h"
 #include "net/http_session.h"
 #include "net/public_site.h"
+#include "support/temp_folder.h"
 
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <spdlog/spdlog.h>
@@ -28,7 +28,7 @@ std::string_view viewOf(beast::string_view text) {
 }
 
 net::StaticFiles makePage() {
-    const TempFolder folder("froxel_fuzz_http");
+    const test::TempFolder folder("froxel_fuzz_http");
     const auto root = folder.path() / "page";
     std::filesystem::create_directories(root / "assets");
     std::ofstream(root / "index.html") << "<!doctype html>";

@@ -32,7 +32,7 @@ RESTRICTED = [
      "Vulkan belongs to gpu and render"),
     (re.compile(r"#include <tiny_gltf"), {"gltf"}, "scene files belong to gltf"),
     (re.compile(r"#include <(stb/|stb_)"), {"environment", "still"}, "stb belongs to environment and still"),
-    (re.compile(r"#include <OpenEXR/"), {"environment", "encode"}, "OpenEXR belongs to environment and encode"),
+    (re.compile(r"#include <OpenEXR/"), {"exr", "encode"}, "OpenEXR belongs to exr and encode"),
     (re.compile(r"#include <png\.h>"), {"png"}, "libpng belongs to png"),
 ]
 BANNED = [

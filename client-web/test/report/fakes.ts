@@ -16,6 +16,8 @@ export const kSamplePath = fileURLToPath(
 );
 /** A run of `froxel load` with stages, on lavapipe. */
 export const kLoadSamplePath = fileURLToPath(new URL('load_sample.json', import.meta.url));
+/** `froxel diff` of two folders: an equal pair, one that differs, and a picture without a counterpart. */
+export const kDiffSamplePath = fileURLToPath(new URL('diff_sample.json', import.meta.url));
 export const sample = (): Results => readResults(readFileSync(kSamplePath, 'utf8'));
 
 const summary = (median: number): NonNullable<Row['gpu_us']> => ({

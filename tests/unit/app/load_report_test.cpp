@@ -1,6 +1,5 @@
 #include "app/load_capacity.h"
 #include "app/load_early_stop.h"
-#include "app/load_junit.h"
 #include "app/load_report.h"
 #include "app/load_series.h"
 #include "app/load_verdict.h"
@@ -139,8 +138,9 @@ TEST(LoadVerdict, ShareThatMayFail_IsNoFailure) {
 }
 
 TEST(LoadJunit, Requirements_AreTestCases) {
-    const std::string xml =
-        junitOf(loadVerdict(required("latency.p95<90, fps>=50"), run({viewer(0)})), 2);
+    const LoadVerdict verdict = loadVerdict(required("latency.p95<90, fps>=50"), run({viewer(0)}));
+    const std::string xml = junitOf("froxel load", casesOf(verdict), 2);
+    EXPECT_NE(xml.find(R"(classname="froxel.load")"), std::string::npos) << xml;
     EXPECT_NE(xml.find(R"(tests="3" failures="1" time="2.000")"), std::string::npos) << xml;
     EXPECT_NE(xml.find(R"(name="fps&gt;=50"/>)"), std::string::npos) << xml;
     EXPECT_NE(xml.find(R"(<failure message="latency.p95&lt;90: 94"/>)"), std::string::npos) << xml;

@@ -1,6 +1,6 @@
 #include "bake/reader_process.h"
-#include "fuzz/temp_folder.h"
 #include "support/places.h"
+#include "support/temp_folder.h"
 #include "unit/bake/flat_form.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ answer()
         return result ? "it was read" : result.error().message;
     }
 
-    fuzz::TempFolder folder_{"froxel_reader"};
+    test::TempFolder folder_{"froxel_reader"};
     ReaderProcess process_;
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/scene_loader.h"
-#include "fuzz/temp_folder.h"
+#include "support/temp_folder.h"
 
 #include <fstream>
 #include <string>
@@ -27,7 +27,7 @@ class Files {
     }
 
   private:
-    fuzz::TempFolder folder_{"formats"};
+    test::TempFolder folder_{"formats"};
 };
 
 inline bool warns(const scene::Scene& scene, std::string_view words) {

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using Bytes = std::vector<std::byte>;
 
 std::vector<int> pixelsOf(const Bytes& file) {
-    const Size size = readSize(file).value();
+    const PictureSize size = readSize(file).value();
     Bytes rgba8(size_t{size.width_px} * size.height_px * 4);
     readPixels(file, rgba8).value();
     std::vector<int> values;
@@ -56,7 +56,7 @@ TEST(IsPng, SignatureAlone_Decides) {
 }
 
 TEST(ReadSize, Header_IsBelievedWhereTheFileCouldHoldThat) {
-    const Size size = readSize(pngClaiming(5'000, 2)).value();
+    const PictureSize size = readSize(pngClaiming(5'000, 2)).value();
     EXPECT_EQ(size.width_px, 5'000U);
     EXPECT_EQ(size.height_px, 2U);
     const auto too_many = readSize(pngClaiming(100'000, 2));

@@ -13,7 +13,7 @@ using encode::makePicture;
 using encode::Picture;
 
 struct Decoded {
-    Size size;
+    PictureSize size;
     std::vector<std::byte> rgba8;
 };
 

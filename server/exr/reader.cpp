@@ -1,5 +1,6 @@
+#include "exr/reader.h"
+
 #include "core/text.h"
-#include "environment/formats.h"
 
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfIO.h>
@@ -14,7 +15,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace froxel::environment {
+namespace froxel::exr {
 namespace {
 
 constexpr std::array<unsigned char, 4> kMagic = {0x76, 0x2F, 0x31, 0x01};
@@ -87,10 +88,10 @@ class Header {
         how.read_fn = Source::read;
         how.size_fn = Source::size;
         how.error_handler_fn = Source::onError;
-        return told(exr_start_read(&context_, "panorama", &how));
+        return told(exr_start_read(&context_, "picture", &how));
     }
-    // What is no panorama of colours.
-    [[nodiscard]] Result<void> check();
+    // That it has one flat picture of colours, of a size that is wanted.
+    [[nodiscard]] Result<void> check(const SizeCheck& check_size);
     // After check().
     [[nodiscard]] const exr_attr_box2i_t& window() const { return window_; }
     [[nodiscard]] bool grey() const { return grey_; }
@@ -104,7 +105,7 @@ class Header {
         return broken(source_.reason.empty() ? exr_get_default_error_message(result)
                                              : source_.reason);
     }
-    [[nodiscard]] Result<void> checkShape();
+    [[nodiscard]] Result<void> checkShape(const SizeCheck& check_size);
     [[nodiscard]] Result<void> checkChannels();
 
     Source source_;
@@ -113,14 +114,14 @@ class Header {
     bool grey_ = false;
 };
 
-Result<void> Header::check() {
-    if (auto shape = checkShape(); !shape) {
+Result<void> Header::check(const SizeCheck& check_size) {
+    if (auto shape = checkShape(check_size); !shape) {
         return shape;
     }
     return checkChannels();
 }
 
-Result<void> Header::checkShape() {
+Result<void> Header::checkShape(const SizeCheck& check_size) {
     int parts = 0;
     if (auto read = told(exr_get_count(context_, &parts)); !read) {
         return read;
@@ -142,10 +143,10 @@ Result<void> Header::checkShape() {
     }
     if (std::memcmp(&display, &window_, sizeof display) != 0) {
         return Error{ErrorCode::kUnsupported,
-                     "has a data window that is not its display window; expected a whole panorama"};
+                     "has a data window that is not its display window; expected a whole picture"};
     }
-    return checkSize(int64_t{window_.max.x} - window_.min.x + 1,
-                     int64_t{window_.max.y} - window_.min.y + 1);
+    return check_size(int64_t{window_.max.x} - window_.min.x + 1,
+                      int64_t{window_.max.y} - window_.min.y + 1);
 }
 
 Result<void> Header::checkChannels() {
@@ -204,7 +205,7 @@ void Header::warnOfPrimaries(std::vector<std::string>& warnings) const {
 
 class Stream : public Imf::IStream {
   public:
-    explicit Stream(std::span<const std::byte> file) : IStream("panorama"), file_(file) {}
+    explicit Stream(std::span<const std::byte> file) : IStream("picture"), file_(file) {}
     bool read(char out[], int size) override {
         const auto wanted = static_cast<size_t>(size);
         if (at_ > file_.size() || wanted > file_.size() - at_) {
@@ -252,17 +253,17 @@ bool isExr(std::span<const std::byte> file) {
            std::memcmp(file.data(), kMagic.data(), kMagic.size()) == 0;
 }
 
-Result<Panorama> readExr(std::span<const std::byte> file) {
+Result<Picture> read(std::span<const std::byte> file, const SizeCheck& check) {
     Header header(file);
     auto ready = header.open();
     if (ready) {
-        ready = header.check();
+        ready = header.check(check);
     }
     if (!ready) {
         return ready.error();
     }
     const auto& [min, max] = header.window();
-    Panorama out;
+    Picture out;
     out.image.width_px = static_cast<uint32_t>(max.x - min.x + 1);
     out.image.height_px = static_cast<uint32_t>(max.y - min.y + 1);
     const uint64_t pixels = uint64_t{out.image.width_px} * out.image.height_px;
@@ -288,4 +289,4 @@ Result<Panorama> readExr(std::span<const std::byte> file) {
     return out;
 }
 
-} // namespace froxel::environment
+} // namespace froxel::exr

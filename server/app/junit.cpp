@@ -1,10 +1,10 @@
-#include "app/load_junit.h"
+#include "app/junit.h"
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 #include <spdlog/fmt/fmt.h>
 
-#include <cstddef>
+#include <algorithm>
 #include <initializer_list>
 #include <sstream>
 #include <utility>
@@ -27,29 +27,28 @@ Tree elementOf(const Attributes& attributes) {
     return element;
 }
 
-Tree caseOf(const std::string& name, const std::string& failure) {
-    Tree test = elementOf({{"classname", "froxel.load"}, {"name", name}});
-    if (!failure.empty()) {
-        test.push_back({"failure", elementOf({{"message", failure}})});
+Tree elementOf(const std::string& class_name, const JunitCase& test) {
+    Tree element = elementOf({{"classname", class_name}, {"name", test.name}});
+    if (!test.failure.empty()) {
+        element.push_back({"failure", elementOf({{"message", test.failure}})});
     }
-    return test;
+    return element;
 }
 
 } // namespace
 
-std::string junitOf(const LoadVerdict& verdict, double seconds) {
-    std::vector<Tree> cases = {caseOf("no viewer fails", verdict.failure.value_or(""))};
-    size_t failures = verdict.failure ? 1 : 0;
-    for (const load::Outcome& outcome : verdict.outcomes) {
-        cases.push_back(caseOf(outcome.requirement, outcome.held ? "" : load::wordsOf(outcome)));
-        failures += outcome.held ? 0 : 1;
-    }
-    Tree suite = elementOf({{"name", "froxel load"},
+std::string
+junitOf(const std::string& suite_name, const std::vector<JunitCase>& cases, double seconds) {
+    std::string class_name = suite_name;
+    std::ranges::replace(class_name, ' ', '.');
+    const auto failures =
+        std::ranges::count_if(cases, [](const JunitCase& test) { return !test.failure.empty(); });
+    Tree suite = elementOf({{"name", suite_name},
                             {"tests", fmt::format("{}", cases.size())},
                             {"failures", fmt::format("{}", failures)},
                             {"time", fmt::format("{:.3f}", seconds)}});
-    for (Tree& test : cases) {
-        suite.push_back({"testcase", std::move(test)});
+    for (const JunitCase& test : cases) {
+        suite.push_back({"testcase", elementOf(class_name, test)});
     }
     Tree suites;
     suites.push_back({"testsuite", suite});

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace froxel::fuzz {
+namespace froxel::test {
 
 class TempFolder {
   public:
@@ -36,4 +36,4 @@ class TempFolder {
     std::filesystem::path path_;
 };
 
-} // namespace froxel::fuzz
+} // namespace froxel::test
