@@ -13,8 +13,8 @@ namespace froxel::protocol {
 // The WebSocket subprotocol that both sides name in the upgrade.
 inline constexpr std::string_view kSubprotocol = "froxel.v1";
 inline constexpr uint32_t kMajor = 1;
-// Since 2: rooms, resuming, Pause; 3: SelectScene; 4: RequestDepth.
-inline constexpr uint32_t kMinor = 4;
+// Since 2: rooms, resuming, Pause; 3: SelectScene; 4: RequestDepth; 5: SetCompare.
+inline constexpr uint32_t kMinor = 5;
 
 inline constexpr size_t kMaxHelloBytes = 4 * 1024;         // first message of a connection
 inline constexpr size_t kMaxMessageBytes = 64 * 1024;      // any later message from a client
@@ -25,6 +25,7 @@ inline constexpr size_t kMaxClientNameBytes = 64;          // Hello.client_name
 inline constexpr size_t kMaxNameBytes = 256;               // any other name in a command
 inline constexpr size_t kMaxSceneIdBytes = 64;             // SelectScene.scene
 inline constexpr size_t kMaxRoomNameBytes = 64;            // Hello.room
+inline constexpr size_t kMaxCompareBytes = 1024;           // SetCompare.right
 inline constexpr size_t kMaxTokenBytes = 512;              // Hello.token
 inline constexpr size_t kMaxRoomMembersTold = 32;          // in a RoomState
 inline constexpr size_t kMaxSceneWarningsTold = 32;        // in a SceneInfo

@@ -35,8 +35,24 @@ struct EncodeLane::Work {
     [[nodiscard]] Encoder& encoderOf(const Encoders& own) const {
         return job.video ? *job.video->encoder : *own[static_cast<size_t>(job.encoding.codec)];
     }
-    void begin(const Encoder& encoder, size_t thread_count) {
+    // Without the lane's mutex, by the thread that has taken it off the queue. False: the job has
+    // ended.
+    [[nodiscard]] bool prepare() {
         started_at = Clock::now();
+        const auto begin = threadTime();
+        const auto prepared = withinMemory([&]() -> Result<void> {
+            job.pixels = job.prepare(std::move(job.pixels));
+            return {};
+        });
+        busy_ns += (threadTime() - begin).count();
+        if (!prepared) {
+            job.pixels.end();
+            job.done(prepared.error());
+        }
+        return prepared.has_value();
+    }
+    void begin(const Encoder& encoder, size_t thread_count) {
+        started_at = job.prepare ? started_at : Clock::now();
         views = encoder.cut(job.pixels.view(), job.encoding, thread_count);
         parts.resize(views.size());
     }
@@ -170,24 +186,34 @@ void EncodeLane::run(const std::stop_token& stop, const Encoders& own) {
 std::optional<EncodeLane::Share> EncodeLane::takeShare(const std::stop_token& stop,
                                                        const Encoders& own) {
     std::unique_lock lock(mutex_);
-    ++idle_count_;
-    wake_.wait(lock, stop, [this] { return !begun_.empty() || !queue_.empty(); });
-    --idle_count_;
-    if (begun_.empty()) {
-        if (stop.stop_requested() || queue_.empty()) {
-            return std::nullopt;
+    while (true) {
+        ++idle_count_;
+        wake_.wait(lock, stop, [this] { return !begun_.empty() || !queue_.empty(); });
+        --idle_count_;
+        if (begun_.empty()) {
+            if (stop.stop_requested() || queue_.empty()) {
+                return std::nullopt;
+            }
+            std::shared_ptr<Work> next = std::move(queue_.front());
+            queue_.pop_front();
+            if (next->job.prepare) {
+                lock.unlock();
+                const bool ready = next->prepare();
+                lock.lock();
+                if (!ready) {
+                    continue;
+                }
+            }
+            next->begin(next->encoderOf(own), 1 + idle_count_);
+            begun_.push_back(std::move(next));
+            wake_.notify_all();
         }
-        Work& next = *queue_.front();
-        next.begin(next.encoderOf(own), 1 + idle_count_);
-        begun_.push_back(std::move(queue_.front()));
-        queue_.pop_front();
-        wake_.notify_all();
+        Share share{begun_.front(), begun_.front()->taken++};
+        if (share.work->taken == share.work->views.size()) {
+            begun_.pop_front();
+        }
+        return share;
     }
-    Share share{begun_.front(), begun_.front()->taken++};
-    if (share.work->taken == share.work->views.size()) {
-        begun_.pop_front();
-    }
-    return share;
 }
 
 } // namespace froxel::encode

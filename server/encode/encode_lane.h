@@ -35,6 +35,9 @@ struct EncodeJob {
     std::function<void(Result<EncodedFrame>)> done;
     std::optional<VideoJob> video = std::nullopt; // with a codec whose frames depend on others
     const void* owner = nullptr;                  // whoever may withdraw it
+    // What the picture is made of `pixels` by, on an encoder thread, before it is encoded; must not
+    // throw, but for std::bad_alloc. None: they are the picture.
+    std::function<PixelLease(PixelLease)> prepare = nullptr;
 
     [[nodiscard]] bool lossless() const { return settings::rowOf(encoding.codec).lossless; }
 };

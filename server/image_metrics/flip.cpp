@@ -77,6 +77,19 @@ Plane<float> separably(const Plane<float>& plane,
     return filterColumns(filterRows(plane, horizontal), vertical);
 }
 
+size_t sensitivityRadius(double pixels_per_degree) {
+    return static_cast<size_t>(
+        std::ceil(3 * std::sqrt(kWidestB / 2) / std::numbers::pi * pixels_per_degree));
+}
+
+double featureSigma(double pixels_per_degree) {
+    return 0.5 * kFeatureWidthDegrees * pixels_per_degree;
+}
+
+size_t featureRadius(double pixels_per_degree) {
+    return static_cast<size_t>(std::ceil(3 * featureSigma(pixels_per_degree)));
+}
+
 struct SensitivityFilter {
     size_t radius_px;
     double pixels_per_degree;
@@ -102,9 +115,7 @@ struct SensitivityFilter {
 
 // What the observer's eye makes of YCxCz: filtered, back in the RGB cube, as Hunt-adjusted L*a*b*.
 RgbPlanes seenColours(const RgbPlanes& ycxcz, double pixels_per_degree) {
-    const auto radius = static_cast<size_t>(
-        std::ceil(3 * std::sqrt(kWidestB / 2) / std::numbers::pi * pixels_per_degree));
-    const SensitivityFilter filter{radius, pixels_per_degree};
+    const SensitivityFilter filter{sensitivityRadius(pixels_per_degree), pixels_per_degree};
     RgbPlanes seen = {filter.apply(ycxcz[0], kAchromatic), filter.apply(ycxcz[1], kRedGreen),
                       filter.apply(ycxcz[2], kBlueYellow[0])};
     const auto narrow = filter.apply(ycxcz[2], kBlueYellow[1]);
@@ -153,8 +164,8 @@ Plane<float> length(Plane<float> x, const Plane<float>& y) {
 // Section 4.2. The derivatives' kernels are a product of one in x and one in y, and so is their
 // balance.
 Features featuresOf(const Plane<float>& ycxcz_y, double pixels_per_degree) {
-    const double sigma = 0.5 * kFeatureWidthDegrees * pixels_per_degree;
-    const auto radius = static_cast<size_t>(std::ceil(3 * sigma));
+    const double sigma = featureSigma(pixels_per_degree);
+    const size_t radius = featureRadius(pixels_per_degree);
     const auto smooth = gaussianKernel(radius, sigma);
     auto first = smooth;
     auto second = smooth;
@@ -218,6 +229,10 @@ float colourError(float hyab_distance) {
     const float knee = kKneeIn * largest;
     return power < knee ? kKneeOut / knee * power
                         : kKneeOut + (power - knee) / (largest - knee) * (1 - kKneeOut);
+}
+
+size_t reach(double pixels_per_degree) {
+    return std::max(sensitivityRadius(pixels_per_degree), featureRadius(pixels_per_degree));
 }
 
 Plane<float>

@@ -10,6 +10,7 @@
 #include "image_metrics/filter.h"
 
 #include <array>
+#include <cstddef>
 
 namespace froxel::image_metrics::flip {
 
@@ -28,6 +29,9 @@ using RgbPlanes = std::array<Plane<float>, 3>;
 // A HyAB distance to an error in 0..1: raised to 0.7, then 0..0.4 of the largest (between green and
 // blue) to 0..0.95, the rest to 0.95..1.
 [[nodiscard]] float colourError(float hyab_distance);
+
+// How many pixels away a pixel may be from one whose error depends on it.
+[[nodiscard]] size_t reach(double pixels_per_degree);
 
 // Each pixel's FLIP, 0..1. Same sizes, not empty, every value in 0..1.
 [[nodiscard]] Plane<float>

@@ -20,7 +20,8 @@ flip::RgbPlanes planesLike(size_t width_px, size_t height_px) {
     return {plane, plane, plane};
 }
 
-flip::RgbPlanes linearPlanes(const PixelView& view) {
+// Of rows from `begin` to `end`.
+flip::RgbPlanes linearPlanes(const PixelView& view, uint32_t begin, uint32_t end) {
     static const auto kLinear = [] {
         std::array<float, 256> table{};
         for (size_t i = 0; i < table.size(); ++i) {
@@ -28,12 +29,12 @@ flip::RgbPlanes linearPlanes(const PixelView& view) {
         }
         return table;
     }();
-    auto planes = planesLike(view.width_px, view.height_px);
-    for (uint32_t y = 0; y < view.height_px; ++y) {
+    auto planes = planesLike(view.width_px, end - begin);
+    for (uint32_t y = begin; y < end; ++y) {
         for (uint32_t x = 0; x < view.width_px; ++x) {
             const auto bytes = bytesAt(view, x, y);
             for (size_t c = 0; c < 3; ++c) {
-                planes[c].row(y)[x] = kLinear[bytes[c]];
+                planes[c].row(y - begin)[x] = kLinear[bytes[c]];
             }
         }
     }
@@ -143,7 +144,26 @@ double structuralSimilarity(const PixelView& picture, const PixelView& reference
 
 Plane<float> flipErrors(const PixelView& picture, const PixelView& reference) {
     expectAlike(picture, reference);
-    return flip::errors(linearPlanes(picture), linearPlanes(reference), kPixelsPerDegree);
+    // In bands, with the rows around that theirs depend on: planes of a whole picture would take a
+    // hundred bytes a pixel.
+    constexpr uint32_t kBandRows = 128;
+    const auto around = static_cast<uint32_t>(flip::reach(kPixelsPerDegree));
+    const uint32_t height = picture.height_px;
+    Plane<float> errors{picture.width_px, height, {}};
+    errors.values.reserve(size_t{picture.width_px} * height);
+    for (uint32_t begin = 0; begin < height; begin += kBandRows) {
+        const uint32_t end = std::min(begin + kBandRows, height);
+        const uint32_t above = std::min(begin, around);
+        const uint32_t below = std::min(height - end, around);
+        const auto band =
+            flip::errors(linearPlanes(picture, begin - above, end + below),
+                         linearPlanes(reference, begin - above, end + below), kPixelsPerDegree);
+        const auto first = band.row(above).begin();
+        errors.values.insert(
+            errors.values.end(), first,
+            first + static_cast<std::ptrdiff_t>(size_t{end - begin} * picture.width_px));
+    }
+    return errors;
 }
 
 PerceivedStats perceivedDifference(const PixelView& picture, const PixelView& reference) {

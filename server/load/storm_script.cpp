@@ -1,6 +1,7 @@
 #include "load/storm_script.h"
 
 #include "load/orbit_script.h"
+#include "session/comparison.h"
 #include "session/proto_enums.h"
 #include "session/settings.h"
 
@@ -37,7 +38,7 @@ constexpr std::array kTurns = {
     Turn::kSetFog,          Turn::kSetTransparency,
     Turn::kSetPlacedLights, Turn::kSetEnvironment,
     Turn::kSetAnimation,    Turn::kSetMaterialVariant,
-    Turn::kSetGeometry,
+    Turn::kSetGeometry,     Turn::kSetCompare,
 };
 
 v1::Vec3 vec(double x, double y, double z) {
@@ -46,6 +47,25 @@ v1::Vec3 vec(double x, double y, double z) {
     made.set_y(y);
     made.set_z(z);
     return made;
+}
+
+settings::SettingValue anyValueOf(const settings::Setting& setting, RandomValues& values) {
+    switch (setting.kind) {
+    case settings::SettingKind::kSwitch:
+        return values.once(2);
+    case settings::SettingKind::kWhole:
+        return values.whole(static_cast<uint32_t>(setting.min), static_cast<uint32_t>(setting.max));
+    case settings::SettingKind::kChoice:
+        // Not of several frames.
+        return settings::Choice{setting.name == "antialiasing"
+                                    ? size_t{0}
+                                    : values.whole(1, static_cast<uint32_t>(setting.names.size())) -
+                                          1};
+    case settings::SettingKind::kReal:
+    case settings::SettingKind::kColor:
+        break;
+    }
+    return values.real(setting.min, setting.max);
 }
 
 } // namespace
@@ -160,6 +180,20 @@ void StormScript::fillToon(v1::SetToon& command) {
     }
 }
 
+// Nothing is compared half of the time.
+void StormScript::fillCompare(v1::SetCompare& command) {
+    values_.fill(command, kAll);
+    command.set_split(values_.within("compare_split"));
+    session::SettingChanges right;
+    for (const session::SessionSetting& setting : session::sessionSettings()) {
+        const settings::Setting& facts = setting.facts();
+        if (session::canDiffer(facts) && facts.name != "environment" && values_.once(16)) {
+            right.push_back({&setting, anyValueOf(facts, values_)});
+        }
+    }
+    command.set_right(values_.once(2) ? session::textOf(right) : "");
+}
+
 void StormScript::fillPlacedLights(v1::PlacedLights& command) {
     command.set_clear(values_.once(8));
     const uint32_t first = values_.whole(1, kPlacedIds);
@@ -221,6 +255,8 @@ void StormScript::fillCommand(v1::ClientMessage& message) {
         return fillToon(*message.mutable_set_toon());
     case Turn::kSetEncoding:
         return fillEncoding(*message.mutable_set_encoding());
+    case Turn::kSetCompare:
+        return fillCompare(*message.mutable_set_compare());
     case Turn::kSetPlacedLights:
         return fillPlacedLights(*message.mutable_set_placed_lights());
     default:

@@ -24,6 +24,7 @@ class StormScript final : public Script {
     void fillEnvironment(v1::SetEnvironment& command);
     void fillEncoding(v1::SetEncoding& command);
     void fillToon(v1::SetToon& command);
+    void fillCompare(v1::SetCompare& command);
     void fillPlacedLights(v1::PlacedLights& command);
     void fillOther(v1::ClientMessage& message, int number);
     void fillCommand(v1::ClientMessage& message);

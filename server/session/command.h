@@ -3,6 +3,7 @@
 // Absent fields keep the session's values.
 #pragma once
 
+#include "session/comparison.h"
 #include "session/settings.h"
 #include "settings/settings.h"
 
@@ -105,6 +106,12 @@ struct SetDebugView : SetSettings {
     std::optional<bool> freeze = std::nullopt;
 };
 
+struct SetCompare {
+    std::optional<SettingChanges> right; // empty: nothing is compared
+    std::optional<double> split;
+    std::optional<CompareShow> show;
+};
+
 struct SetSize {
     settings::Size size;
 };
@@ -149,6 +156,7 @@ using Command = std::variant<Hello,
                              SetGrid,
                              SetToon,
                              SetDebugView,
+                             SetCompare,
                              SetSize,
                              RequestKeyFrame,
                              Ack,

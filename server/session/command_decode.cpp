@@ -224,6 +224,29 @@ Command decode(const v1::SetDebugView& set, FieldValidator& fields) {
     return command;
 }
 
+Command decode(const v1::SetCompare& set, FieldValidator& fields) {
+    fields.require(set.has_right() || set.has_split() || set.has_show(), "right");
+    SetCompare command;
+    if (set.has_right()) {
+        fields.text("right", set.right(), protocol::kMaxCompareBytes);
+        auto right = parseRight(set.right());
+        if (!right) {
+            fields.fail(right.error());
+        } else {
+            command.right = std::move(*right);
+        }
+    }
+    if (set.has_split()) {
+        command.split = fields.number("split", settings::kCompareSplitRange, set.split());
+    }
+    if (set.has_show()) {
+        command.show = static_cast<CompareShow>(
+            enumIndex(fields, "show", *v1::CompareShow_descriptor(),
+                      numbersOf<v1::CompareShow>(kCompareShowNames), set.show()));
+    }
+    return command;
+}
+
 Command decode(const v1::SetSize& size, FieldValidator& fields) {
     return SetSize{{fields.number(settings::kWidthRange, size.width()),
                     fields.number(settings::kHeightRange, size.height())}};
@@ -266,6 +289,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decode(message.set_toon(), fields);
     case v1::ClientMessage::kSetDebugView:
         return decode(message.set_debug_view(), fields);
+    case v1::ClientMessage::kSetCompare:
+        return decode(message.set_compare(), fields);
     case v1::ClientMessage::kSetSize:
         return decode(message.set_size(), fields);
     case v1::ClientMessage::kAck:

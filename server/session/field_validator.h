@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace froxel::session {
 
@@ -52,6 +53,12 @@ class FieldValidator {
     void fail(RejectCode code, std::string_view field, const std::string& text) {
         if (!rejection_) {
             rejection_ = Rejection{code, 0, std::string(field), std::string(field) + " " + text};
+        }
+    }
+
+    void fail(Rejection rejection) {
+        if (!rejection_) {
+            rejection_ = std::move(rejection);
         }
     }
 

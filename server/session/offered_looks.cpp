@@ -12,11 +12,6 @@ namespace {
 
 using settings::ViewSettings;
 
-std::string addressText(const settings::Setting& setting, const settings::SettingValue& value) {
-    const bool* on = std::get_if<bool>(&value);
-    return on != nullptr ? *on ? "1" : "0" : textOf(setting, value);
-}
-
 // Another one that the setting may be at.
 settings::SettingValue otherThan(const settings::Setting& setting,
                                  const settings::SettingValue& value) {

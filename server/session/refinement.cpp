@@ -53,9 +53,11 @@ void RefinementSchedule::onSamplesRefused() {
 std::optional<RefinementSchedule::Due>
 RefinementSchedule::next(settings::Refine wanted,
                          const Delivery& delivery,
-                         const settings::ViewSettings& settings) const {
+                         const settings::ViewSettings& settings,
+                         uint32_t most_samples) const {
     const settings::Size& size = settings.size;
-    const uint32_t samples = samples_refused_ ? 1 : restingSamples(settings);
+    const uint32_t samples =
+        samples_refused_ ? 1 : std::min(most_samples, restingSamples(settings));
     if (shown_ >= Refinement::kSmooth && begun_ < samples) {
         return Due{shown_, changed_at_, begun_, samples}; // what has begun goes on
     }

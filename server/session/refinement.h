@@ -49,7 +49,8 @@ class RefinementSchedule {
     // What comes next if nothing changes; none: the picture is as good as it will be.
     [[nodiscard]] std::optional<Due> next(settings::Refine wanted,
                                           const Delivery& delivery,
-                                          const settings::ViewSettings& settings) const;
+                                          const settings::ViewSettings& settings,
+                                          uint32_t most_samples = settings::kMeanSamples) const;
 
   private:
     TimePoint changed_at_;

@@ -193,16 +193,39 @@ struct Reducer {
         return set(command.changes);
     }
 
+    Outcome operator()(const SetCompare& command) const {
+        assignIfGiven(state.compare_split, command.split);
+        Comparison comparison = state.comparison.value_or(Comparison{});
+        assignIfGiven(comparison.right, command.right);
+        assignIfGiven(comparison.show, command.show);
+        if (comparison.right.empty() && command.show && !command.right) {
+            return outOfRange("show", "is given while nothing is compared; give right, too");
+        }
+        state.comparison.reset();
+        if (!comparison.right.empty()) {
+            state.comparison = std::move(comparison);
+        }
+        return checkArea("right");
+    }
+
+    [[nodiscard]] static uint64_t samplesOf(const SessionState& side) {
+        const uint64_t across = settings::samplesAcross(side.settings.antialiasing);
+        return across * across;
+    }
+
     // What is drawn of a picture at most; `field` is the one that asked for more.
     Outcome checkArea(const char* field) const {
         const settings::Size& size = state.settings.size;
-        const uint64_t across = settings::samplesAcross(state.settings.antialiasing);
-        const uint64_t area_px = across * across * size.width_px * size.height_px;
+        const uint64_t of_right = state.comparison ? samplesOf(rightOf(state)) : 0;
+        const uint64_t sample_count = samplesOf(state) + of_right;
+        const uint64_t area_px = sample_count * size.width_px * size.height_px;
         if (area_px <= context.defaults.max_area_px) {
             return {};
         }
         const std::string samples =
-            across > 1 ? " with " + numberText(across * across) + " samples a pixel" : "";
+            sample_count > 1 ? " with " + numberText(sample_count) + " samples a pixel" +
+                                   (of_right > 0 ? ", of both sides of a comparison" : "")
+                             : "";
         Rejection refused{RejectCode::kCapacity, 0, field,
                           "width x height is " + numberText(size.width_px) + "x" +
                               numberText(size.height_px) + samples +
@@ -281,6 +304,7 @@ CommandResult<SessionState> apply(SessionState state,
     const double time_before_s = state.light_clock.secondsAt(now);
     const motion::Playback playback_before = state.playback;
     const auto followed_before = state.followed;
+    const auto comparison_before = state.comparison;
     if (auto rejection = std::visit(Reducer{state, context, now}, message.body)) {
         rejection->ref_seq = message.stamp.seq;
         return *rejection;
@@ -288,7 +312,8 @@ CommandResult<SessionState> apply(SessionState state,
     state.applied = message.stamp;
     if (state.settings != settings_before || state.encoding != encoding_before ||
         state.delivery != delivery_before || state.light_clock.secondsAt(now) != time_before_s ||
-        !(state.playback == playback_before) || state.followed != followed_before) {
+        !(state.playback == playback_before) || state.followed != followed_before ||
+        state.comparison != comparison_before) {
         ++state.version;
     }
     return state;

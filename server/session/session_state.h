@@ -4,6 +4,7 @@
 
 #include "motion/playback.h"
 #include "session/command.h"
+#include "session/comparison.h"
 #include "session/delivery.h"
 #include "session/light_clock.h"
 #include "session/rejection.h"
@@ -23,6 +24,10 @@ struct SessionState {
     bool sends_depth = false;           // with pictures of a moving view: somebody asked for it
     motion::Playback playback{};        // of the scene's animations, by secondsOf(the host's clock)
     std::optional<uint32_t> followed{}; // of SceneSummary::cameras, one that moves
+    std::optional<Comparison> comparison{};
+    // Where the divider of a comparison is, as a share of the width. Clients draw it: no picture is
+    // another for it, and `version` stays.
+    double compare_split = 0.5;
     // Of the scene that is shown, which stays on the device for it; null: the only one.
     std::shared_ptr<const SessionContext> scene{};
 

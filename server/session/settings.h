@@ -43,6 +43,7 @@ class SessionSetting {
 struct SettingChange {
     const SessionSetting* setting = nullptr; // never null in a command
     settings::SettingValue value;
+    bool operator==(const SettingChange&) const = default;
 };
 using SettingChanges = std::vector<SettingChange>;
 

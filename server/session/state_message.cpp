@@ -218,10 +218,44 @@ void fillDelivery(v1::FrameHeader& out, const FrameRecord& record) {
 void fill(v1::Part& part, const FrameRecord& record) {
     part.set_length(saturated(record.encoded_bytes));
     part.set_width(record.width_px);
-    part.set_height(record.height_px);
+    part.set_height(record.encodedHeight());
     const settings::Codec codec = record.delivered.encoding.codec;
     part.set_codec(toProto<v1::Codec>(settings::kCodecNames, codec));
     part.set_key_frame(settings::rowOf(codec).frames_depend && record.key);
+}
+
+void fillPasses(google::protobuf::RepeatedPtrField<v1::PassTime>& out, const FrameStats& stats) {
+    for (const PassTime& pass : stats.passes) {
+        v1::PassTime& row = *out.Add();
+        row.set_name(pass.name);
+        if (pass.gpu_us) {
+            row.set_gpu_us(saturated(*pass.gpu_us));
+        }
+    }
+}
+
+void fill(v1::Compared& out, const ComparedRecord& compared) {
+    out.set_layered(compared.layered);
+    out.set_promised(compared.promised);
+    out.set_differing(compared.differing_count);
+    out.set_max(compared.max_abs);
+    out.set_rmse(compared.rmse);
+    if (compared.flip) {
+        out.set_flip(*compared.flip);
+    }
+    if (const auto& first = compared.first) {
+        v1::PixelPair& pixel = *out.mutable_first();
+        pixel.set_x(first->x);
+        pixel.set_y(first->y);
+        pixel.set_left(first->left_rgb);
+        pixel.set_right(first->right_rgb);
+    }
+    out.set_left_us(saturated(compared.left_us));
+    out.set_right_us(saturated(compared.right_us));
+    if (compared.right_stats.gpu_us) {
+        out.set_right_gpu_us(saturated(*compared.right_stats.gpu_us));
+    }
+    fillPasses(*out.mutable_right_passes(), compared.right_stats);
 }
 
 void fillLooks(google::protobuf::RepeatedPtrField<v1::Look>& out, const SessionContext& context) {
@@ -414,13 +448,10 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     header.set_encode_wait_us(saturated(record.encode_wait_us));
     header.set_encode_us(saturated(record.encode_us));
     header.set_send_wait_us(saturated(record.send_wait_us));
-    for (const PassTime& pass : record.stats.passes) {
-        v1::PassTime& out = *header.add_passes();
-        out.set_name(pass.name);
-        if (pass.gpu_us) {
-            out.set_gpu_us(saturated(*pass.gpu_us));
-        }
+    if (record.compared) {
+        fill(*header.mutable_compared(), *record.compared);
     }
+    fillPasses(*header.mutable_passes(), record.stats);
     header.set_surfaces_kept(record.stats.surfaces_reused);
     fillLists(header, record.stats.lists);
     if (record.stats.grid.x > 0) {

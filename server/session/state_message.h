@@ -50,6 +50,27 @@ makeSceneChanged(const SessionState& state, const SessionState& first, uint64_t 
                                              const std::string& reconnect_url);
 [[nodiscard]] v1::ServerMessage makeFrameDetails(const FrameDetails& details);
 
+// Both sides of a compared frame. Durations in microseconds.
+struct ComparedRecord {
+    bool layered = true;   // false: a heat map, or one picture with a divider
+    bool promised = false; // promisesEqualBits()
+    double left_us = 0;    // host and device work up to readable pixels
+    double right_us = 0;
+    FrameStats right_stats; // the left side's are the frame's
+    // From here on as the encoder's thread finds it.
+    uint64_t differing_count = 0; // pixels
+    double max_abs = 0;           // of display colours of 0..1
+    double rmse = 0;
+    std::optional<double> flip; // mean LDR-FLIP; none: not measured
+    struct Pixel {
+        uint32_t x = 0;
+        uint32_t y = 0;
+        uint32_t left_rgb = 0; // 0xRRGGBB
+        uint32_t right_rgb = 0;
+    };
+    std::optional<Pixel> first; // that differs, row by row
+};
+
 // One frame's way through the server, in microseconds where not said otherwise.
 struct FrameRecord {
     uint64_t frame_id = 0;
@@ -76,6 +97,12 @@ struct FrameRecord {
     settings::Camera camera;                  // that it was drawn with
     uint64_t depth_mesh = 0;                  // number of that of its depth; 0: it comes without
     FrameStats stats;
+    std::optional<ComparedRecord> compared = {}; // none: one picture
+
+    // Of the encoded picture, which has both sides' pixels one above the other.
+    [[nodiscard]] uint32_t encodedHeight() const {
+        return compared && compared->layered ? 2 * height_px : height_px;
+    }
 };
 
 [[nodiscard]] v1::FrameHeader makeFrameHeader(const FrameRecord& record);

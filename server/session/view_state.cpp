@@ -37,6 +37,11 @@ void fillViewState(v1::ViewState& out, const SessionContext& context, const Sess
     const settings::ViewSettings& settings = state.settings;
     fillCamera(out, settings.camera);
     fillSettings(out, state);
+    out.set_compare_split(state.compare_split);
+    if (const auto& comparison = state.comparison) {
+        out.set_compare(textOf(comparison->right));
+        out.set_compare_show(toProto<v1::CompareShow>(kCompareShowNames, comparison->show));
+    }
     if (const BoundsD3 box = settings.lights.box.value_or(context.scene.bounds_world);
         !box.empty()) {
         fillBox(*out.mutable_light_box(), box);

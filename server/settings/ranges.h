@@ -48,13 +48,14 @@ inline constexpr Range<double> kRollRange{"lights.roll_deg", -360.0, 360.0};
 inline constexpr Range<uint32_t> kReplacedRange{"lights.replaces", 0, 999'999};
 inline constexpr Range<double> kPickRange{"pick", -1.0, 1.0};
 inline constexpr Range<double> kTimeRange{"time", 0.0, 1e9};
+inline constexpr Range<double> kCompareSplitRange{"compare_split", 0.0, 1.0};
 
 // Of what is no setting of the table: placed by hand, or of a camera, a size or a ramp.
 inline constexpr std::tuple kOtherRanges{
-    kWidthRange,       kHeightRange,      kGridXRange,      kGridYRange,      kGridZRange,
-    kFovRange,         kHalfHeightRange,  kLensShiftXRange, kLensShiftYRange, kPositionRange,
-    kFocusRange,       kUpRange,          kToonRange,       kToonSlopeRange,  kPlacedIdRange,
-    kPlacedCountRange, kPlacedColorRange, kConeRange,       kAreaSideRange,   kRollRange,
-    kReplacedRange,    kPickRange,        kTimeRange};
+    kWidthRange,       kHeightRange,      kGridXRange,      kGridYRange,       kGridZRange,
+    kFovRange,         kHalfHeightRange,  kLensShiftXRange, kLensShiftYRange,  kPositionRange,
+    kFocusRange,       kUpRange,          kToonRange,       kToonSlopeRange,   kPlacedIdRange,
+    kPlacedCountRange, kPlacedColorRange, kConeRange,       kAreaSideRange,    kRollRange,
+    kReplacedRange,    kPickRange,        kTimeRange,       kCompareSplitRange};
 
 } // namespace froxel::settings

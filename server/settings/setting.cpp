@@ -24,4 +24,9 @@ std::string textOf(const Setting& setting, const SettingValue& value) {
     return part(0) + "," + part(1) + "," + part(2);
 }
 
+std::string addressText(const Setting& setting, const SettingValue& value) {
+    const bool* on = std::get_if<bool>(&value);
+    return on != nullptr ? *on ? "1" : "0" : textOf(setting, value);
+}
+
 } // namespace froxel::settings

@@ -54,6 +54,9 @@ struct Setting {
 // "0.5", "mip_chain", "1,1,0.5", "true": what the command line takes.
 [[nodiscard]] std::string textOf(const Setting& setting, const SettingValue& value);
 
+// "0.5", "mip_chain", "1": what the page's address takes, and parseSetting().
+[[nodiscard]] std::string addressText(const Setting& setting, const SettingValue& value);
+
 // Of a struct that is read and set as a whole, such as ViewSettings.
 template <class Whole>
 struct SettingOf : Setting {

@@ -119,16 +119,29 @@ void FramePipeline::startEncoding() {
     bool taken = false;
     {
         const session::Delivered& with = encoding_->record.delivered;
-        encode::EncodeJob job{std::move(encoding_->pixels), with.encoding,
+        encode::EncodeJob job{std::move(encoding_->pixels),
+                              with.encoding,
                               [self = shared_from_this()](Result<EncodedFrame> result) {
                                   self->onEncoded(std::move(result));
                               },
-                              videoJob(*encoding_), this};
+                              videoJob(*encoding_),
+                              this,
+                              composition()};
         taken = pool_.submit(std::move(job));
     } // a lease that was not taken ends here
     if (!taken) {
         finish({1, true});
     }
+}
+
+std::function<PixelLease(PixelLease)> FramePipeline::composition() {
+    if (!encoding_->compared) {
+        return nullptr;
+    }
+    return [self = shared_from_this()](PixelLease right) {
+        DrawnFrame& frame = *self->encoding_;
+        return compose(*frame.compared, std::move(right), *frame.record.compared);
+    };
 }
 
 // A request is served when its key frame is there: until then the pool may refuse the job.

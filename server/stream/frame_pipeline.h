@@ -9,6 +9,7 @@
 #include "core/pixel_view.h"
 #include "encode/encode_pool.h"
 #include "session/stream_port.h"
+#include "stream/compared_picture.h"
 
 #include <cstdint>
 #include <functional>
@@ -26,6 +27,7 @@ struct DrawnFrame {
     session::FrameRecord record; // what is known before encoding
     Seconds cost{0};             // of drawing it
     TimePoint drawn_at{};
+    std::shared_ptr<ComparedSides> compared = {}; // with the left side; `pixels` are the right one
 };
 
 class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
@@ -59,6 +61,8 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     void keepDepth();
     void codeDepth();
     void startEncoding();
+    // What makes one picture of both sides; none: nothing is compared.
+    [[nodiscard]] std::function<PixelLease(PixelLease)> composition();
     [[nodiscard]] std::optional<encode::VideoJob> videoJob(const DrawnFrame& frame);
     void onEncoded(Result<EncodedFrame> result);
     void finish(Losses losses);

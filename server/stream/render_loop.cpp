@@ -56,7 +56,7 @@ void warnOfLongStep(std::string_view step,
 // Whether its viewers may draw its picture from a camera near its own. A picture that rests has the
 // depth of the one before; a camera that is orthographic shows no parallax.
 bool sendsDepth(const BegunFrame& frame) {
-    return frame.state.sends_depth &&
+    return frame.state.sends_depth && !frame.state.comparison &&
            frame.record.delivered.refinement == session::Refinement::kInteractive &&
            frame.record.camera.projection == settings::Projection::kPerspective &&
            !settings::replacesPicture(frame.state.settings.debug.view);
@@ -431,6 +431,9 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
         if (!isThisPictureAlone(work.error())) {
             throw StartupError(work.error());
         }
+        if (std::exchange(viewer.left, nullptr)) {
+            viewer.changed = true;
+        }
         if (viewer.shrink(work.error())) {
             return false; // begun again, smaller
         }
@@ -455,36 +458,50 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
     const Seconds known = typical ? *typical : typical_cost_.value().value_or(Seconds(0));
     frame->piece_estimate =
         (work->estimate > Seconds(0) ? work->estimate : known) / work->piece_count;
-    if (frame->isLastSample()) {
+    if (frame->isLastSample() && !frame->isLeftSide()) {
         frame->record.frame_id = ++viewer.last_frame_id;
     }
-    viewer.noteBegun(*frame, now);
+    viewer.noteBegun(frame, now);
     viewer.waiting = frame;
     return true;
 }
 
 Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame) {
-    if (!viewer.source || viewer.source_scene != frame.state.scene) {
-        auto source = sourceOf(frame.state).makeView();
-        if (!source) {
-            return source.error();
-        }
-        viewer.source = std::move(*source);
+    if (viewer.source_scene != frame.state.scene) {
+        viewer.source.reset();
+        viewer.right_source.reset();
         viewer.source_scene = frame.state.scene;
         viewer.affordable = {};
     }
+    if (!frame.state.comparison) {
+        viewer.endComparison();
+    }
+    auto& source = viewer.sourceOf(frame);
+    if (!source) {
+        auto made = sourceOf(frame.state).makeView();
+        if (!made) {
+            return made.error();
+        }
+        source = std::move(*made);
+    }
     const session::Delivered& with = frame.record.delivered;
-    settings::ViewSettings settings = frame.state.settings;
+    settings::ViewSettings settings =
+        frame.left ? session::rightOf(frame.state).settings : frame.state.settings;
     settings.geometry_error_px =
         std::max(settings.geometry_error_px, static_cast<float>(with.geometry_error_px));
     settings = session::scaled(settings, with.scale);
     // A refined still leaves the encoder of video as it is.
     FrameTerms terms;
     terms.limit_share = viewer.affordable.limitShare();
-    terms.encoding = {std::max(encode::memoryBytes(with.encoding, settings.size),
-                               encode::memoryBytes(frame.state.encoding, settings.size)),
+    settings::Size encoded = settings.size;
+    if (frame.state.comparison) {
+        terms.limit_share /= 2; // of one picture's time
+        encoded.height_px *= 2;
+    }
+    terms.encoding = {std::max(encode::memoryBytes(with.encoding, encoded),
+                               encode::memoryBytes(frame.state.encoding, encoded)),
                       settings::rowOf(with.encoding.codec).outputs};
-    if (frame.sample_count == 1) {
+    if (frame.sample_count == 1 && !frame.state.comparison) {
         terms.encoding.becomes = with.encoding;
     }
     if (sendsDepth(frame)) {
@@ -498,7 +515,7 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
     }
     const FrameTime time{frame.record.time_s,
                          frame.state.playback.at(session::SessionState::secondsOf(frame.started))};
-    return viewer.source->begin(settings, time, terms);
+    return source->begin(settings, time, terms);
 }
 
 void RenderLoop::noteEstimate(Viewer& viewer, BegunFrame& frame, const FrameWork& work) {
@@ -514,7 +531,7 @@ void RenderLoop::noteEstimate(Viewer& viewer, BegunFrame& frame, const FrameWork
 
 void RenderLoop::submitPiece(Viewer& viewer) {
     BegunFrame& frame = *viewer.waiting;
-    if (const auto submitted = viewer.source->submitPiece(); !submitted) {
+    if (const auto submitted = viewer.sourceOf(frame)->submitPiece(); !submitted) {
         throw StartupError(submitted.error());
     }
     scheduler_.charge(frame.id, frame.piece_estimate);
@@ -527,7 +544,7 @@ void RenderLoop::submitPiece(Viewer& viewer) {
 
 void RenderLoop::abandon(Viewer& viewer) {
     BegunFrame& frame = *viewer.waiting;
-    viewer.source->abandon();
+    viewer.sourceOf(frame)->abandon();
     ++options_.fates->given_up;
     viewer.gave_up = true;
     viewer.changed = true;
@@ -542,6 +559,9 @@ void RenderLoop::abandon(Viewer& viewer) {
 void RenderLoop::end(Viewer& viewer, BegunFrame& frame) {
     frame.over = true;
     viewer.dropMean();
+    if (viewer.left.get() == &frame) {
+        viewer.left.reset();
+    }
     --viewer.started;
     viewer.submitted.reset();
 }
@@ -565,7 +585,7 @@ void RenderLoop::finishOldest() {
     BegunFrame& frame = *piece.frame;
     Viewer& viewer = *viewers_.at(frame.id);
     lookAt(frame.id, viewer);
-    auto collected = viewer.source->collect();
+    auto collected = viewer.sourceOf(frame)->collect();
     if (!collected && collected.error().code != ErrorCode::kCapacity) {
         throw StartupError(collected.error());
     }
@@ -621,11 +641,22 @@ Seconds RenderLoop::needOf(const BegunFrame& frame, const FrameStats& stats) con
 
 void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame drawn) {
     const TimePoint now = Clock::now();
-    const Seconds need = needOf(frame, drawn.stats);
+    frame.need = needOf(frame, drawn.stats);
     typical_cost_.add(frame.cost);
     viewer.frame_cost.add(frame.cost);
     viewer.piece_cost = frame.longest_piece;
     viewer.gave_up = false;
+    if (frame.isLeftSide()) {
+        frame.drawn = std::move(drawn);
+        frame.record.render_us = Microseconds(now - frame.began).count();
+        ++options_.fates->samples;
+        --viewer.started; // the right side uses the credit
+        return;
+    }
+    if (frame.left && !takeLeft(viewer, frame)) {
+        return;
+    }
+    const Seconds need = frame.need;
     {
         const std::lock_guard lock(admission_mutex_);
         admission_.onFrame(frame.id, need, now, drawn.stats.surfaces_reused);
@@ -640,14 +671,7 @@ void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame draw
         viewer.changed = true;
     }
     if (with.refinement == session::Refinement::kInteractive) {
-        const double target_hz = viewer.state.delivery.target_fps;
-        demand_.onFrame(frame.id, need, target_hz, now);
-        if (target_hz > 0) {
-            // As if it had the device to itself, at this much a frame.
-            const Seconds shared(demand_.total(now) / target_hz);
-            viewer.rate_keeper.onFrame(std::max(need, shared), {with.scale, with.geometry_error_px},
-                                       now);
-        }
+        keepRate(viewer, frame, now);
     }
     if (viewer.leaving) {
         ++options_.fates->viewer_gone;
@@ -663,9 +687,65 @@ void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame draw
     record.width_px = pixels.width_px;
     record.height_px = pixels.height_px;
     record.render_us = Microseconds(now - frame.started).count();
-    record.stats = std::move(drawn.stats);
+    std::shared_ptr<ComparedSides> sides;
+    if (frame.left) {
+        sides = sidesOf(frame, drawn.stats, now);
+    } else {
+        record.stats = std::move(drawn.stats);
+    }
     viewer.pipeline->push({std::move(drawn.pixels), frame.state.key_requests, frame.state.version,
-                           std::move(record), std::max(need, options_.min_frame_interval), now});
+                           std::move(record), std::max(need, options_.min_frame_interval), now,
+                           std::move(sides)});
+}
+
+void RenderLoop::keepRate(Viewer& viewer, const BegunFrame& frame, TimePoint now) {
+    const double target_hz = viewer.state.delivery.target_fps;
+    demand_.onFrame(frame.id, frame.need, target_hz, now);
+    if (target_hz > 0) {
+        // As if it had the device to itself, at this much a frame.
+        const Seconds shared(demand_.total(now) / target_hz);
+        const session::Delivered& with = frame.record.delivered;
+        viewer.rate_keeper.onFrame(std::max(frame.need, shared),
+                                   {with.scale, with.geometry_error_px}, now);
+    }
+}
+
+// Adds what the left side took. False: it is lost, and both are drawn again.
+bool RenderLoop::takeLeft(Viewer& viewer, BegunFrame& right) {
+    const BegunFrame& left = *right.left;
+    if (!left.drawn) {
+        --viewer.started;
+        viewer.submitted.reset();
+        viewer.changed = true;
+        return false;
+    }
+    right.need += left.need;
+    right.estimate += left.estimate;
+    right.limit_share = std::max(right.limit_share, left.limit_share);
+    return true;
+}
+
+// Both sides of a frame whose right one has been drawn; the record tells of both.
+std::shared_ptr<ComparedSides>
+RenderLoop::sidesOf(BegunFrame& right, FrameStats& right_stats, TimePoint now) {
+    BegunFrame& left = *right.left;
+    const session::Comparison& comparison = *right.state.comparison;
+    session::ComparedRecord compared;
+    compared.promised = session::promisesEqualBits(right.state);
+    compared.left_us = left.record.render_us;
+    compared.right_us = Microseconds(now - right.began).count();
+    compared.right_stats = std::move(right_stats);
+    right.record.stats = std::move(left.drawn->stats);
+    right.record.compared = std::move(compared);
+    const bool rests = right.record.delivered.refinement >= session::Refinement::kHigh;
+    return std::make_shared<ComparedSides>(
+        ComparedSides{.left = std::move(left.drawn->pixels),
+                      .show = comparison.show,
+                      .divided = comparison.divided,
+                      .split = right.state.compare_split,
+                      .left_encoding = right.state.encoding,
+                      .right_encoding = session::rightOf(right.state).encoding,
+                      .measures_flip = rests || comparison.divided});
 }
 
 // Whoever joined meanwhile is told too. The device is asked nothing more and nothing that it may
@@ -679,6 +759,7 @@ void RenderLoop::fail(const Error& error) {
             sink->deviceLost(error);
         }
         keepForGood(std::move(viewer->source));
+        keepForGood(std::move(viewer->right_source));
         viewer->under_way = 0;
     }
     keepForGood(std::move(source_));

@@ -142,6 +142,10 @@ class RenderLoop final : public session::StreamPort {
     void finishOldest();
     void finishPiece(Viewer& viewer, BegunFrame& frame, Result<Collected> collected);
     void finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame drawn);
+    void keepRate(Viewer& viewer, const BegunFrame& frame, TimePoint now);
+    [[nodiscard]] static bool takeLeft(Viewer& viewer, BegunFrame& right);
+    [[nodiscard]] static std::shared_ptr<ComparedSides>
+    sidesOf(BegunFrame& right, FrameStats& right_stats, TimePoint now);
     [[nodiscard]] Seconds newcomersCost();
     [[nodiscard]] Seconds needOf(const BegunFrame& frame, const FrameStats& stats) const;
 

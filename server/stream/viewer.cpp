@@ -28,6 +28,9 @@ std::optional<TimePoint> Viewer::wantsFrameAt() const {
     if (leaving || blocked) {
         return {};
     }
+    if (left) {
+        return ask_again;
+    }
     if (moves()) {
         return std::max(paced_until, ask_again);
     }
@@ -36,11 +39,13 @@ std::optional<TimePoint> Viewer::wantsFrameAt() const {
 }
 
 std::optional<session::RefinementSchedule::Due> Viewer::refineNext() const {
-    return refinement.next(state.delivery.refine, delivery, state.settings);
+    // A comparison's sides are single frames, so that they are what their settings say.
+    const uint32_t most_samples = state.comparison ? 1 : settings::kMeanSamples;
+    return refinement.next(state.delivery.refine, delivery, state.settings, most_samples);
 }
 
 bool Viewer::beginsMean() const {
-    const auto due = built || moves() ? std::nullopt : refineNext();
+    const auto due = built || left || moves() ? std::nullopt : refineNext();
     return due && due->sample == 0 && due->sample_count > 1;
 }
 
@@ -78,15 +83,28 @@ Viewer::nextDelivered(const std::optional<session::RefinementSchedule::Due>& due
     session::Delivery limits = delivery;
     const session::Relief relief = rate_keeper.relief();
     limits.scale = std::min(limits.scale, relief.scale);
-    limits.geometry_error_px = relief.geometry_error_px;
+    limits.geometry_error_px = state.comparison ? 0 : relief.geometry_error_px;
     session::Delivered with = session::delivered(
         state.encoding, limits, due ? due->stage : session::Refinement::kInteractive);
     with.scale = std::min(with.scale, affordable.scale());
     return with;
 }
 
+// The same state at the same time, whatever was asked for meanwhile.
+std::shared_ptr<BegunFrame> Viewer::buildRight(TimePoint now) const {
+    auto right = std::make_shared<BegunFrame>(
+        BegunFrame{left->id, left->record, left->state, left->started, begun_count + 1});
+    right->began = now;
+    right->left = left;
+    return right;
+}
+
 std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) {
-    if (built && built->state.version != state.version && !gave_up) {
+    if (left && left->state.scene != state.scene) {
+        left.reset();
+        changed = true;
+    }
+    if (built && built->state.version != state.version && !gave_up && !built->left) {
         gave_up = true;
         built.reset();
     } else if (built && built->state.scene != state.scene) {
@@ -96,8 +114,12 @@ std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) 
         no_room_for.reset();
         affordable.forgetRoom();
     }
+    if (!built && left) {
+        built = buildRight(now);
+    }
     if (!built) {
         built = std::make_shared<BegunFrame>(BegunFrame{id, {}, state, now, begun_count + 1});
+        built->began = now;
         session::FrameRecord& record = built->record;
         record.applied = state.applied;
         const auto due = moves() ? std::nullopt : refineNext();
@@ -119,14 +141,21 @@ std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) 
     return built;
 }
 
-void Viewer::noteBegun(const BegunFrame& frame, TimePoint now) {
+void Viewer::noteBegun(const std::shared_ptr<BegunFrame>& begun, TimePoint now) {
+    const BegunFrame& frame = *begun;
     const session::Delivered& with = frame.record.delivered;
     const bool limited =
         with.scale < 1 || with.geometry_error_px > 0 || with.encoding != frame.state.encoding;
-    refinement.onBegun(with.refinement, limited);
+    left = frame.isLeftSide() ? begun : nullptr;
+    if (!left) {
+        refinement.onBegun(with.refinement, limited);
+    }
     amid_samples = frame.sample_count > 1 && !frame.isLastSample();
-    if (moves()) {
+    if (moves() && !left) {
         paced_until = now + std::chrono::duration_cast<Clock::duration>(delivery.min_interval);
+    }
+    if (frame.left) {
+        right_number = frame.number;
     }
     changed = frame.state.version != state.version;
     submitted = frame.state;
@@ -136,9 +165,17 @@ void Viewer::noteBegun(const BegunFrame& frame, TimePoint now) {
     ++begun_count;
 }
 
+void Viewer::endComparison() {
+    // So many pictures are under way at most, and leave in order.
+    if (right_source && begun_count >= right_number + FramePipeline::kCapacity) {
+        right_source.reset();
+    }
+}
+
 bool Viewer::hasRoom() const {
+    const auto& next = left ? right_source : source;
     const bool has_source =
-        source == nullptr || (source_scene == state.scene ? source->canBegin() : under_way == 0);
+        next == nullptr || (source_scene == state.scene ? next->canBegin() : under_way == 0);
     return started < granted && under_way + pipeline->size() < FramePipeline::kCapacity &&
            has_source;
 }
@@ -146,6 +183,9 @@ bool Viewer::hasRoom() const {
 bool Viewer::waitsInVain() const {
     if (leaving || blocked) {
         return true;
+    }
+    if (waiting->left) {
+        return false; // half of the picture is there
     }
     const bool taken_back = granted < started; // it paused
     return (taken_back || waiting->state.version != state.version) && !gave_up;

@@ -39,8 +39,16 @@ struct BegunFrame {
     bool over = false;         // nothing more of it will be submitted
     uint32_t sample = 0;       // of those whose mean is the picture
     uint32_t sample_count = 1;
+    TimePoint began{}; // `started`, but of a right side later
+    // Of a right side, which is drawn as the left one was: that one. Null: it is none.
+    std::shared_ptr<BegunFrame> left = {};
+    // Of a left side, once it is there.
+    std::optional<SourceFrame> drawn = {};
+    Seconds need{0}; // what it kept others from
 
     [[nodiscard]] bool isLastSample() const { return sample + 1 == sample_count; }
+    // Whether the picture needs another frame, of the right side.
+    [[nodiscard]] bool isLeftSide() const { return state.comparison && !left; }
 };
 
 struct Viewer {
@@ -48,8 +56,10 @@ struct Viewer {
 
     std::weak_ptr<session::FrameSink> sink;
     std::shared_ptr<FramePipeline> pipeline;
-    session::SharedContext source_scene; // which `source` is of, and stays for
-    std::unique_ptr<ViewSource> source;  // made with the first frame of a scene
+    session::SharedContext source_scene;      // which `source` is of, and stays for
+    std::unique_ptr<ViewSource> source;       // made with the first frame of a scene
+    std::unique_ptr<ViewSource> right_source; // of a comparison's right side; made with its first
+    uint64_t right_number = 0;                // BegunFrame::number of the last one
     session::SessionState state;
     TimePoint arrived{};
     std::optional<session::SessionState> submitted; // what the device was last given
@@ -57,6 +67,7 @@ struct Viewer {
     double drawn_scale = 1;                         // of that
     std::shared_ptr<BegunFrame> built;              // half: see FrameWork::half_built
     std::shared_ptr<BegunFrame> waiting;            // begun last, while pieces of it wait
+    std::shared_ptr<BegunFrame> left;               // begun, whose right side is not
     uint64_t last_frame_id = 0;
     uint64_t begun_count = 0; // frames
     uint64_t started = 0;     // frames, without those lost on the way
@@ -102,7 +113,13 @@ struct Viewer {
     void dropMean();
     // With the last sample gives the mean in its place; false: there is no picture yet.
     [[nodiscard]] bool addSample(const BegunFrame& frame, PixelLease& pixels);
-    void noteBegun(const BegunFrame& frame, TimePoint now);
+    void noteBegun(const std::shared_ptr<BegunFrame>& frame, TimePoint now);
+    // Of the frame's side; null: there is none yet.
+    [[nodiscard]] std::unique_ptr<ViewSource>& sourceOf(const BegunFrame& frame) {
+        return frame.left ? right_source : source;
+    }
+    // Frees what the last comparison took, once nothing of it is under way.
+    void endComparison();
     [[nodiscard]] bool hasRoom() const;
     // Whether it takes no picture, and none is on the way to it.
     [[nodiscard]] bool pauses() const { return idle() && started >= granted; }
@@ -118,6 +135,7 @@ struct Viewer {
 
   private:
     [[nodiscard]] std::optional<session::RefinementSchedule::Due> refineNext() const;
+    [[nodiscard]] std::shared_ptr<BegunFrame> buildRight(TimePoint now) const;
     // due: none where the view moves.
     [[nodiscard]] session::Delivered
     nextDelivered(const std::optional<session::RefinementSchedule::Due>& due) const;

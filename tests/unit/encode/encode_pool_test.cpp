@@ -8,6 +8,7 @@
 #include <atomic>
 #include <future>
 #include <memory>
+#include <new>
 #include <sys/resource.h>
 #include <thread>
 #include <unistd.h>
@@ -44,6 +45,37 @@ class HeldThread {
   private:
     std::promise<void> gate_;
 };
+
+// On an encoder's thread; what it made of the pixels is encoded.
+TEST(EncodePool, Prepare_MakesThePicture) {
+    const Picture picture = makePicture(64, 48);
+    std::promise<Result<EncodedFrame>> promise;
+    EncodePool pool(2, 4);
+    auto prepared = job({}, [&](Result<EncodedFrame> frame) { promise.set_value(frame); });
+    const auto caller = std::this_thread::get_id();
+    prepared.prepare = [&](const PixelLease& /*pixels*/) {
+        EXPECT_NE(std::this_thread::get_id(), caller);
+        return PixelLease(picture.view(), [] {});
+    };
+    ASSERT_TRUE(pool.submit(std::move(prepared)));
+    const EncodedFrame frame = promise.get_future().get().value();
+    EXPECT_EQ(*frame.bytes, JpegEncoder().encode(picture.view(), kEncoding).value());
+}
+
+TEST(EncodePool, PrepareWithoutMemory_FailsThatJobAlone) {
+    const Picture picture = makePicture(64, 48);
+    std::promise<Result<EncodedFrame>> failed;
+    std::promise<Result<EncodedFrame>> next;
+    EncodePool pool(1, 4);
+    auto greedy =
+        job({picture.view(), [] {}}, [&](Result<EncodedFrame> frame) { failed.set_value(frame); });
+    greedy.prepare = [](const PixelLease& /*pixels*/) -> PixelLease { throw std::bad_alloc(); };
+    ASSERT_TRUE(pool.submit(std::move(greedy)));
+    ASSERT_TRUE(pool.submit(
+        job({picture.view(), [] {}}, [&](Result<EncodedFrame> frame) { next.set_value(frame); })));
+    EXPECT_EQ(failed.get_future().get().error().code, ErrorCode::kCapacity);
+    EXPECT_TRUE(next.get_future().get());
+}
 
 TEST(EncodePool, Job_GivesTheEncodersBytes) {
     const Picture picture = makePicture(64, 48);

@@ -255,6 +255,30 @@ TEST(HdrFlip, LargestFloats_AreFinite) {
     EXPECT_LE(error, 1);
 }
 
+// Pictures of several bands, whose borders do not show.
+TEST(FlipErrors, OfATallPicture_AreThoseOfThePlanesAsAWhole) {
+    const auto planes = [](const ShownPicture& picture) {
+        Plane<float> plane{picture.width_px, picture.height_px, {}};
+        flip::RgbPlanes whole = {plane, plane, plane};
+        for (uint32_t y = 0; y < picture.height_px; ++y) {
+            for (uint32_t x = 0; x < picture.width_px; ++x) {
+                for (size_t c = 0; c < 3; ++c) {
+                    whole[c].values.push_back(
+                        flip::linearFromSrgb(static_cast<float>(picture.at(x, y)[c]) / 255));
+                }
+            }
+        }
+        return whole;
+    };
+    for (const uint32_t height : {1U, 127U, 128U, 129U, 300U}) {
+        const auto reference = noise(9, height, 7);
+        const auto picture = disturbed(reference, 20, 8);
+        EXPECT_EQ(flipErrors(picture.view(), reference.view()).values,
+                  flip::errors(planes(picture), planes(reference), kPixelsPerDegree).values)
+            << height;
+    }
+}
+
 TEST(HdrFlip, NonFiniteValue_IsNaN) {
     for (const float bad :
          {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
