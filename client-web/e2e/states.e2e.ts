@@ -150,7 +150,7 @@ it('Connecting', async () => {
       performance.getEntriesByType('resource').some(({ name }) => name.includes('decode_worker')),
     ),
   );
-  expect(await viewer.fetchedBytes()).toBeLessThan(63_000);
+  expect(await viewer.fetchedBytes()).toBeLessThan(64_500);
   await looksAsItShould('connecting');
 });
 

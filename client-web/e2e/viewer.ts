@@ -154,7 +154,8 @@ export class Viewer {
       const asIs = scale === 1 && chroma === state.chroma && (quality === 0 || quality === state.quality);
       return asIs || refinement >= Refinement.SETTLED;
     }
-    const smooth = state.debugView === DebugView.NONE ? Refinement.SMOOTH : Refinement.HIGH;
+    const single = state.debugView !== DebugView.NONE || state.compare !== '';
+    const smooth = single ? Refinement.HIGH : Refinement.SMOOTH;
     const last = state.refine === Refine.HIGH ? smooth : Refinement.LOSSLESS;
     return lastFrame.refinement === last;
   }

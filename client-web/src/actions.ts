@@ -10,6 +10,7 @@ export interface Doings {
   readonly scenes: () => void;
   readonly open: () => void;
   readonly renderers: () => void;
+  readonly compare: () => void;
   readonly pictures: () => void;
   readonly room: () => void;
   readonly figures: () => void;
@@ -46,6 +47,7 @@ export function actionsOf(does: Doings): readonly Entry[] {
     action('Open', 'i', does.open, 'Opens a scene of your own; or drop it on the page', 'upload import file bring drop glb gltf zip'),
     action('Figures', 'f', does.figures, 'Shows the time of each part of a frame', 'statistics passes latency fps'),
     action('Renderers', 'n', does.renderers, 'Shows the five renderers', 'forward deferred naive toon clustered'),
+    action('Compare', 'b', does.compare, 'Shows two settings of the same frame side by side', 'difference slider split error flip heat map versus'),
     action('Save picture', 'p', does.screenshot, 'Saves the current picture as a PNG file', 'screenshot image download'),
     action('Save picture in a size', '', does.pictures, 'Asks the server for this view in a size of your choice', 'screenshot image download resolution 4k'),
     action('Copy link', 'l', does.copyLink, 'Copies a link to this view', 'share url address'),

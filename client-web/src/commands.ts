@@ -246,6 +246,10 @@ export class Commands
     if (settings) this.edit({ animate: !settings.animate });
   }
 
+  comparison(): string {
+    return this.store.state.settings?.compare ?? '';
+  }
+
   renderer(): Renderer | null {
     return this.store.state.settings?.renderer ?? null;
   }

@@ -4,6 +4,7 @@ import { actionsOf, camerasOf, looksOf, type Doings } from './actions';
 import type { Bring } from './bring';
 import type { AnimationCard } from './cards/animation_card';
 import { Banner } from './cards/banner';
+import type { CompareBar } from './cards/compare_bar';
 import { Legend } from './cards/legend';
 import type { LooksCard } from './cards/looks_card';
 import type { PictureCard } from './cards/picture_card';
@@ -18,6 +19,7 @@ import { entryOf, keyText, type Entry } from './core/entries';
 import { wasOpen } from './core/kept';
 import { kMissing, Later } from './core/later';
 import { Codec } from './gen/froxel/v1/common_pb';
+import type { CompareCard } from './panel/compare_card';
 import type { Panel } from './panel/panel';
 import { decodableCodecs, kPlainCodec } from './picture/codecs';
 import { workerDecoder } from './picture/decoder';
@@ -74,6 +76,11 @@ const presenter = new Presenter({
   nextFrame,
   nowMs,
   paint: (bitmap, header) => {
+    if (header.compared?.layered) {
+      warp.here?.restart();
+      picture.paintLayers(bitmap, header.scale);
+      return;
+    }
     picture.paint(bitmap, header.scale);
     if (warp.here) warp.here.setPicture(bitmap, header);
     else bitmap.close();
@@ -85,6 +92,7 @@ const presenter = new Presenter({
     lookCosts.painted(header);
     panel.here?.showGrid(header.grid);
     animationCard.here?.showTime(header.animationTimeS);
+    compareBar.here?.painted(header);
     if (header.camera) {
       const { eye, target, up } = header.camera;
       const pose = { eye: toVec(eye), target: toVec(target), up: toVec(up) };
@@ -172,6 +180,8 @@ const files = new ServerFiles(() => token.value);
 const looksCard = new Later(makeLooks, partMissing);
 const scenesCard = new Later(makeScenes, partMissing);
 const renderersCard = new Later(makeRenderers, partMissing);
+const compareBar = new Later(makeCompareBar, partMissing);
+const compareCard = new Later(makeCompareCard, partMissing);
 const pictureCard = new Later(makePictures, partMissing);
 const bring = new Later(makeBring, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
@@ -199,6 +209,7 @@ store.listen((state) => {
   roomCard.here?.show(state.room);
   animationCard.here?.show(state);
   handles.here?.show(state);
+  compareBar.here?.show(state);
   element('panel', HTMLElement).inert = !mayControl(state.room);
 });
 store.listen(({ link }, before) => {
@@ -213,6 +224,11 @@ store.listen((state, before) => {
   const [now, then] = [state.settings, before.settings];
   if (state.server === before.server && now?.renderer === then?.renderer && now?.lights === then?.lights) return;
   canvas.setAttribute('aria-label', pictureLabel(state));
+});
+store.listen(({ settings }, before) => {
+  if (!settings || settings === before.settings) return;
+  picture.setSplit(settings.compareSplit);
+  if (settings.compare !== '') void compareBar.want().then((bar) => bar?.show(store.state));
 });
 store.listen(({ room }, before) => {
   if (room && !before.room) void roomCard.want().then((card) => card?.show(store.state.room));
@@ -271,6 +287,23 @@ async function makeRenderers(): Promise<RenderersCard> {
     import('./style/renderers.css'),
   ]);
   return new RenderersCard(commands, lookCosts);
+}
+
+async function makeCompareBar(): Promise<CompareBar> {
+  const [{ CompareBar }] = await Promise.all([
+    import('./cards/compare_bar'),
+    import('./style/compare.css'),
+  ]);
+  return new CompareBar(canvas, commands, nowMs);
+}
+
+async function makeCompareCard(): Promise<CompareCard> {
+  const [{ CompareCard }, { fetchWords }] = await Promise.all([
+    import('./panel/compare_card'),
+    import('./panel/words'),
+    import('./style/compare.css'),
+  ]);
+  return new CompareCard(commands, await fetchWords());
 }
 
 async function makePictures(): Promise<PictureCard> {
@@ -421,6 +454,7 @@ const doings: Doings = {
   open: () => void bring.want().then((made) => made?.open()),
   figures: () => statsCard.toggle(),
   renderers: () => void renderersCard.want().then((card) => card?.toggle()),
+  compare: () => void compareCard.want().then((card) => card?.toggle()),
   pictures: () => void pictureCard.want().then((card) => card?.toggle()),
   room: () => void roomCard.want().then((card) => card?.toggle()),
   screenshot: () => (commands.isReadable() ? void commands.saveShown() : doings.pictures()),
@@ -459,6 +493,7 @@ const tools: readonly (readonly [string, () => void])[] = [
   ['tool-scenes', doings.scenes],
   ['tool-open', doings.open],
   ['tool-renderers', doings.renderers],
+  ['tool-compare', doings.compare],
   ['tool-looks', doings.looks],
   ['tool-home', doings.home],
   ['tool-screenshot', doings.pictures],

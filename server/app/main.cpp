@@ -45,10 +45,7 @@ struct Run {
         return 0;
     }
     int operator()(const app::ServeOptions& options) const { return app::runServe(options); }
-    int operator()(const app::RenderOptions& options) const {
-        app::runRender(options);
-        return 0;
-    }
+    int operator()(const app::RenderOptions& options) const { return app::runRender(options); }
     int operator()(const app::BenchOptions& options) const { return app::runBench(options); }
     int operator()(const app::LoadOptions& options) const { return app::runLoad(options); }
     int operator()(const app::InfoOptions& options) const {

@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "encode/image_file.h"
 #include "environment/reader.h"
+#include "session/comparison.h"
 #include "session/delivery_rows.h"
 #include "session/session_context.h"
 #include "session/settings.h"
@@ -30,6 +31,7 @@ namespace froxel::app {
 namespace {
 
 constexpr settings::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
+constexpr settings::Range<double> kFlipRange{"max_flip", 0, 1};
 constexpr settings::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
 
 constexpr settings::Range<double> kSecondsPerRowRange{"seconds_per_row", 0.01, 86'400.0};
@@ -235,6 +237,30 @@ void addServe(CLI::App& app, Targets& targets) {
     finish(command, options, LogLevel::kInfo, targets, Configured::kBySources);
 }
 
+void addComparison(CommandBuilder& command, RenderOptions& options) {
+    command.cli()
+        .add_option_function<std::vector<std::string>>(
+            "--compare",
+            [&options](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) {
+                    auto changes = session::parseRight(text == "as-set" ? "" : text);
+                    if (!changes) {
+                        throw CLI::ValidationError("--compare", changes.error().message);
+                    }
+                    options.compare.push_back(std::move(*changes));
+                }
+            },
+            "Draw the same frame twice and measure the difference. Each value lists settings that "
+            "one side has otherwise, such as \"renderer:naive,list_cap:16\"; as-set: none")
+        ->expected(2)
+        ->type_name("LEFT RIGHT");
+    command.number("--split", options.compare_split, settings::kCompareSplitRange,
+                   "Divider of the compared picture, as a share of the width");
+    command.number("--max-flip", options.max_flip, kFlipRange, "none",
+                   "Highest mean LDR-FLIP between the compared sides");
+    command.group("Comparison");
+}
+
 void addOutputs(CommandBuilder& command, RenderOptions& options) {
     command.value("--out", "FILE", options.out, parsePicturePath, "",
                   "File for the last frame: .png, .jpg, or .exr or .pfm (linear, before exposure)");
@@ -279,6 +305,7 @@ void addRender(CLI::App& app, Targets& targets) {
         "--grid-camera", "CAMERA", options.grid_camera, parseCamera, "the view's",
         "Camera whose cluster grid --debug-view cluster_wires shows, in the form of --camera");
     addOutputs(command, options);
+    addComparison(command, options);
     finish(command, options, LogLevel::kWarn, targets);
 }
 
@@ -396,8 +423,16 @@ void checkBake(const BakeOptions& options) {
 
 // What no single option can check.
 void checkRender(const CLI::App& command, const RenderOptions& options) {
-    if (options.out.empty() && options.timings.empty()) {
+    if (options.out.empty() && options.timings.empty() && options.compare.empty()) {
         throw CLI::RequiredError("--out FILE, --timings FILE or both");
+    }
+    if (options.compare.empty() && options.max_flip) {
+        throw CLI::ValidationError("--max-flip", "needs --compare");
+    }
+    if (!options.compare.empty() && !options.out.empty() &&
+        !encode::outputsOf(*encode::imageFormatOf(options.out)).none()) {
+        throw CLI::ValidationError(
+            "--compare", fmt::format("writes .png or .jpg, --out is '{}'", options.out.string()));
     }
     for (const char* name : {"--quality", "--chroma"}) {
         const bool jpeg = !options.out.empty() &&

@@ -10,14 +10,20 @@
 #include "render/view/renderer.h"
 #include "render/view/sample_mean.h"
 #include "report/frame_step.h"
+#include "session/compared_report.h"
+#include "session/comparison.h"
+#include "session/session_state.h"
 #include "settings/samples.h"
+#include "stream/compared_picture.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <cstdio>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -27,8 +33,9 @@ namespace {
 
 // That the picture's file is made of; none: pixels.
 Outputs outputsOf(const RenderOptions& options) {
-    return options.out.empty() ? Outputs{}
-                               : encode::outputsOf(encode::imageFormatOf(options.out).value());
+    return options.out.empty() || !options.compare.empty()
+               ? Outputs{}
+               : encode::outputsOf(encode::imageFormatOf(options.out).value());
 }
 
 // A picture to be written.
@@ -139,38 +146,86 @@ std::string medianText(const nlohmann::ordered_json& time) {
                           : fmt::format("{:.1f} ms", time["median"].get<double>() / 1000);
 }
 
-} // namespace
+// The scene on the device, and the run that a picture of it begins with.
+class Drawing {
+  public:
+    explicit Drawing(const RenderOptions& options)
+        : scene_(readScene(options)), device_(options.device),
+          run_(startOf(options, scene_, device_.traits())),
+          playback_(scene_.motion, run_.settings.animation, 0),
+          renderer_(
+              device_,
+              posed(options),
+              {},
+              {.detail_levels = run_.settings.geometry_error_px > 0 || !options.compare.empty(),
+               .geometry_cache = options.device.pipeline_cache.folder}) {}
 
-void runRender(const RenderOptions& options) try {
+    [[nodiscard]] const TimedRun& start() const { return run_; }
+    // Draws every picture and fills run.frames; returns the last one.
+    [[nodiscard]] Still draw(const RenderOptions& options, TimedRun& run) {
+        render::ViewRenderer viewer(renderer_);
+        return drawAll(options, playback_, viewer, run);
+    }
+
+  private:
+    static scene::Scene readScene(const RenderOptions& options) {
+        auto scene =
+            loadScene(options.scene, options.choices, workOn, readingBy(options.sandbox)).value();
+        surround(scene, readSurroundings(options.environment_file));
+        logWarnings(scene);
+        return scene;
+    }
+    static TimedRun startOf(const RenderOptions& options,
+                            const scene::Scene& scene,
+                            const gpu::DeviceTraits& device) {
+        auto run = describeRun(options, scene, device);
+        run.settings.animation.number = scene.motion ? motion::usualAnimation(*scene.motion) : 0;
+        run.settings.material_variant = scene.material_variant;
+        return run;
+    }
+    // Cameras as they stand at that time.
+    const scene::Scene& posed(const RenderOptions& options) {
+        if (const auto playing = playback_.at(run_.time_s)) {
+            motion::placeCameras(scene_, playing->clips, playing->now_s);
+        }
+        settings::ViewSettings& settings = run_.settings;
+        settings.camera = findCamera(options.camera, scene_, settings.size).value();
+        auto& lens_shift = settings.camera.lens_shift;
+        lens_shift = options.lens_shift.value_or(lens_shift);
+        if (options.grid_camera) {
+            settings.debug.grid_camera =
+                findCamera(*options.grid_camera, scene_, settings.size).value();
+        }
+        return scene_;
+    }
+
+    scene::Scene scene_;
+    gpu::Device device_;
+    TimedRun run_;
+    const motion::Playback playback_;
+    render::Renderer renderer_;
+};
+
+void printTimes(const TimedRun& run, const nlohmann::ordered_json& timings) {
+    const auto& frame = timings["frame"];
+    fmt::print("{} of {}x{}: median {}; GPU {}, host {}\n",
+               run.frames.size() == 1 ? "1 frame" : fmt::format("{} frames", run.frames.size()),
+               run.settings.size.width_px, run.settings.size.height_px,
+               medianText(frame["frame_us"]), medianText(frame["gpu_us"]),
+               medianText(frame["host_us"]));
+}
+
+void tellFiles(const RenderOptions& options) {
     for (const auto* file : {&options.out, &options.timings}) {
         if (!file->empty()) {
-            requireFolderOf(*file);
+            fmt::print("wrote {}\n", file->string());
         }
     }
-    auto scene =
-        loadScene(options.scene, options.choices, workOn, readingBy(options.sandbox)).value();
-    surround(scene, readSurroundings(options.environment_file));
-    logWarnings(scene);
-    gpu::Device device(options.device);
-    auto run = describeRun(options, scene, device.traits());
-    run.settings.animation.number = scene.motion ? motion::usualAnimation(*scene.motion) : 0;
-    run.settings.material_variant = scene.material_variant;
-    const motion::Playback playback(scene.motion, run.settings.animation, 0);
-    if (const auto playing = playback.at(run.time_s)) {
-        motion::placeCameras(scene, playing->clips, playing->now_s);
-    }
-    run.settings.camera = findCamera(options.camera, scene, run.settings.size).value();
-    auto& lens_shift = run.settings.camera.lens_shift;
-    lens_shift = options.lens_shift.value_or(lens_shift);
-    if (options.grid_camera) {
-        run.settings.debug.grid_camera =
-            findCamera(*options.grid_camera, scene, run.settings.size).value();
-    }
-    render::Renderer renderer(device, scene, {},
-                              {.detail_levels = run.settings.geometry_error_px > 0,
-                               .geometry_cache = options.device.pipeline_cache.folder});
-    render::ViewRenderer viewer(renderer);
-    const auto last = drawAll(options, playback, viewer, run);
+}
+
+void drawOne(const RenderOptions& options, Drawing& drawing) {
+    TimedRun run = drawing.start();
+    const auto last = drawing.draw(options, run);
     if (!options.out.empty()) {
         writePicture(options, last);
     }
@@ -178,20 +233,89 @@ void runRender(const RenderOptions& options) try {
     if (!options.timings.empty()) {
         writeText(options.timings, timings.dump(2) + "\n");
     }
-    const auto& frame = timings["frame"];
-    fmt::print("{} of {}x{}: median {}; GPU {}, host {}\n",
-               run.frames.size() == 1 ? "1 frame" : fmt::format("{} frames", run.frames.size()),
-               run.settings.size.width_px, run.settings.size.height_px,
-               medianText(frame["frame_us"]), medianText(frame["gpu_us"]),
-               medianText(frame["host_us"]));
+    printTimes(run, timings);
     if (last.frame.stats.details->legend) {
         fmt::print("{}\n", legendLine(*last.frame.stats.details->legend));
     }
-    for (const auto* file : {&options.out, &options.timings}) {
-        if (!file->empty()) {
-            fmt::print("wrote {}\n", file->string());
+}
+
+// Of settings that have these otherwise.
+session::SessionState
+changed(const RenderOptions& options, const TimedRun& run, const session::SettingChanges& changes) {
+    session::SessionState state{run.settings, options.encoding, {}, {{}, 1, false}, {}};
+    for (const session::SettingChange& change : changes) {
+        change.setting->set(state, change.value);
+    }
+    return state;
+}
+
+// Owns what it shows.
+PixelLease leaseOf(Still still) {
+    const auto kept = std::make_shared<const Still>(std::move(still));
+    return {kept->pixels(), [kept] {}};
+}
+
+// Draws both sides of the same frames, one after the other.
+int drawBoth(const RenderOptions& options, Drawing& drawing) {
+    std::array<PixelLease, 2> sides;
+    std::array<settings::Encoding, 2> encodings;
+    nlohmann::ordered_json report = {{"schema", "froxel.compare.v1"}};
+    std::optional<session::SessionState> left;
+    for (size_t i = 0; i < sides.size(); ++i) {
+        TimedRun run = drawing.start();
+        const auto state = changed(options, run, options.compare[i]);
+        run.settings = state.settings;
+        encodings[i] = state.encoding;
+        sides[i] = leaseOf(drawing.draw(options, run));
+        const char* name = i == 0 ? "left" : "right";
+        report[name] = timingsReport(run);
+        fmt::print("{}: {}: ", name,
+                   options.compare[i].empty() ? "as set" : session::textOf(options.compare[i]));
+        printTimes(run, report[name]);
+        if (i == 0) {
+            left = state;
         }
     }
+    left->comparison = session::Comparison{options.compare[1]};
+    session::ComparedRecord record;
+    record.promised = options.compare[0].empty() && session::promisesEqualBits(*left);
+    stream::ComparedSides both{.left = std::move(sides[0]),
+                               .divided = true,
+                               .split = options.compare_split,
+                               .left_encoding = encodings[0],
+                               .right_encoding = encodings[1],
+                               .measures_flip = true};
+    const PixelLease picture = stream::compose(both, std::move(sides[1]), record);
+    const PixelView& pixels = picture.view();
+    const uint64_t pixel_count = uint64_t{pixels.width_px} * pixels.height_px;
+    fmt::print("{}\n", session::wordsOf(record, pixel_count));
+    if (!options.out.empty()) {
+        encode::writeImage(options.out, pixels, options.encoding).value();
+    }
+    if (!options.timings.empty()) {
+        report["compared"] = session::comparedReport(record, pixel_count);
+        writeText(options.timings, report.dump(2) + "\n");
+    }
+    return record.flip.value_or(0) > options.max_flip.value_or(1) ? 1 : 0;
+}
+
+} // namespace
+
+int runRender(const RenderOptions& options) try {
+    for (const auto* file : {&options.out, &options.timings}) {
+        if (!file->empty()) {
+            requireFolderOf(*file);
+        }
+    }
+    Drawing drawing(options);
+    int exit_code = 0;
+    if (options.compare.empty()) {
+        drawOne(options, drawing);
+    } else {
+        exit_code = drawBoth(options, drawing);
+    }
+    tellFiles(options);
+    return exit_code;
 } catch (const vk::SystemError& error) {
     throw StartupError({ErrorCode::kDevice, fmt::format("Vulkan: {}", error.what())});
 }

@@ -5,12 +5,14 @@
 #include "app/setting_options.h"
 #include "app/value_parsers.h"
 #include "gpu/device_options.h"
+#include "session/settings.h"
 #include "settings/settings.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace froxel::app {
 
@@ -36,10 +38,14 @@ struct RenderOptions {
     uint32_t warmup_count = 3;
     bool keep_surfaces = false;    // from frame to frame, as serve does
     std::filesystem::path timings; // empty: none; else timings_report.h's JSON
+    // What the left and the right side have otherwise; empty: one picture.
+    std::vector<session::SettingChanges> compare;
+    double compare_split = 0.5;     // where the divider of their picture is
+    std::optional<double> max_flip; // of the two sides; none: any
 };
 
-// Frames are drawn one after another, each collected before the next is submitted.
-// Throws StartupError.
-void runRender(const RenderOptions& options);
+// Frames are drawn one after another, each collected before the next is submitted. The exit code:
+// 0; 1 where the sides of a comparison are farther apart than `max_flip`. Throws StartupError.
+[[nodiscard]] int runRender(const RenderOptions& options);
 
 } // namespace froxel::app

@@ -84,6 +84,12 @@ std::optional<Response> readParameter(const std::string& key,
     return {};
 }
 
+bool compares(const WantedStill& wanted) {
+    const auto& entries = wanted.still.view;
+    const auto compare = std::ranges::find(entries, "compare", &still::Entry::name);
+    return compare != entries.end() && !compare->text.empty();
+}
+
 } // namespace
 
 WantedStill thumbnailOf(std::string_view scene, const settings::Size& size) {
@@ -116,6 +122,10 @@ std::variant<WantedStill, Response> readStillAddress(const boost::urls::url_view
     }
     if (wanted.isSeries() && !wanted.format->sheets) {
         return refused("unsupported", "views", "fits the formats jpg, png and json alone");
+    }
+    if (compares(wanted) && (wanted.isSeries() || wanted.format->facts || !wanted.format->sheets)) {
+        return refused("unsupported", "compare",
+                       "fits one picture of the formats jpg and png alone");
     }
     if (wanted.format->facts && !wanted.isSeries()) {
         const auto& entries = wanted.still.view;

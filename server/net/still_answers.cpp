@@ -283,8 +283,12 @@ HttpSite::CallOff StillAnswers::drawOne(const Serving& serving,
             } else if (any) {
                 done({tagged(makeResponse(http::status::not_modified, type, {}))});
             } else {
-                done(onItsWay(tagged(makeResponse(http::status::ok, type, {})),
-                              std::get<still::StillPicture>(outcome).bytes));
+                const auto& picture = std::get<still::StillPicture>(outcome);
+                Response response = tagged(makeResponse(http::status::ok, type, {}));
+                if (!picture.compared.empty()) {
+                    response.set("Froxel-Compared", picture.compared);
+                }
+                done(onItsWay(std::move(response), picture.bytes));
             }
         },
         Clock::now());

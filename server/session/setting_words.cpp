@@ -1,5 +1,6 @@
 #include "session/setting_words.h"
 
+#include "session/comparison.h"
 #include "session/settings.h"
 
 #include <nlohmann/json.hpp>
@@ -20,6 +21,9 @@ const std::string& settingWords() {
                 if (!text.empty()) {
                     row[key] = text;
                 }
+            }
+            if (canDiffer(facts)) {
+                row["compare"] = true;
             }
             list.push_back(std::move(row));
         }

@@ -5,8 +5,9 @@
 
 namespace froxel::session {
 
-// JSON: a list of {"name", "label", "help", "unit", "cost"}, in the table's order, without units
-// and costs that are empty. Made once; any thread.
+// JSON: a list of {"name", "label", "help", "unit", "cost", "compare"}, in the table's order,
+// without units and costs that are empty; "compare" is true where the sides of a comparison may
+// differ, else absent. Made once; any thread.
 [[nodiscard]] const std::string& settingWords();
 
 } // namespace froxel::session

@@ -1,7 +1,10 @@
 #include "still/still_desk.h"
 
 #include "core/text.h"
+#include "session/compared_report.h"
 #include "settings/value_text.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -431,11 +434,17 @@ void StillDesk::onDrawn(StillWorker& worker, session::ReadyFrame frame) {
         }
         const auto job = *std::exchange(worker.drawing, std::nullopt);
         ++counts_.drawn_total;
-        if (job->request.kept) {
+        const auto& record = frame.record;
+        if (job->request.kept && !record.compared) {
             storeFor(job->request).keep(job->request.tag, frame.bytes);
         }
         const auto& scene = job->state->scene ? job->state->scene : job->source.first;
-        finish(job, StillPicture{frame.bytes, scene, job->state->encoding}, calls);
+        StillPicture picture{frame.bytes, scene, job->state->encoding};
+        if (record.compared) {
+            const uint64_t pixels = uint64_t{record.width_px} * record.height_px;
+            picture.compared = session::comparedReport(*record.compared, pixels).dump();
+        }
+        finish(job, picture, calls);
         goOn(worker, Clock::now(), calls);
     });
 }

@@ -38,7 +38,7 @@ struct StillRequest {
     Entries view;
     settings::Codec codec = settings::Codec::kJpeg;
     bool thumbnail = false; // kept apart from the others, which may be many
-    bool kept = true;       // whether the picture is given again
+    bool kept = true;       // whether the picture is given again; one of a comparison never is
     std::string tag;        // of what the picture is a function of
 };
 
@@ -60,6 +60,7 @@ struct StillPicture {
     // What it was drawn of and how it was encoded; null where it was drawn for another one before.
     session::SharedContext scene{};
     settings::Encoding encoding{};
+    std::string compared{}; // session::comparedReport() as JSON; empty: nothing was compared
 };
 
 using StillOutcome = std::variant<StillPicture, StillRefusal>;

@@ -30,6 +30,7 @@ struct Asked {
     session::SetToon toon;
     session::SetLights lights;
     session::SetAnimation animation;
+    session::SetCompare compare;
     std::optional<settings::PlacedLights> placed;
     std::optional<uint32_t> material_variant;
     std::optional<settings::Size> size;
@@ -99,6 +100,24 @@ Result<void> readSize(Asked& asked, std::string_view text) {
     return text.starts_with("auto@") ? Result<void>() : put(asked.size, settings::parseSize(text));
 }
 
+Result<void> readCompare(Asked& asked, std::string_view text) {
+    auto right = session::parseRight(text);
+    if (!right) {
+        return Error{ErrorCode::kInvalidArgument, right.error().message};
+    }
+    asked.compare.right = std::move(*right);
+    return {};
+}
+
+Result<void> readCompareShow(Asked& asked, std::string_view text) {
+    const auto index = settings::parseName(text, session::kCompareShowNames);
+    if (!index) {
+        return index.error();
+    }
+    asked.compare.show = static_cast<session::CompareShow>(*index);
+    return {};
+}
+
 Result<void> readNamedView(Asked& asked, std::string_view text) {
     const NamedView* view = findView(text);
     if (view == nullptr) {
@@ -142,6 +161,13 @@ constexpr std::array kRows{
     Row{"light_box",
         [](Asked& asked, auto text) { return put(asked.lights.box, settings::parseBox(text)); }},
     Row{"material_variant", readNumber<&Asked::material_variant, kAnyNumber>},
+    Row{"compare", readCompare},
+    Row{"compare_split",
+        [](Asked& asked, auto text) {
+            return put(asked.compare.split,
+                       settings::parseNumber(text, settings::kCompareSplitRange));
+        }},
+    Row{"compare_show", readCompareShow},
     Row{"debug_frozen",
         [](Asked& asked, auto text) { return put(asked.frozen, settings::parseSwitch(text)); }},
     Row{"toon_fragment",
@@ -246,6 +272,9 @@ std::vector<session::Command> commandsOf(const Asked& asked) {
     commands.emplace_back(asked.toon);
     commands.emplace_back(session::SetLights{{}, asked.lights.box});
     commands.emplace_back(session::SetAnimation{{}, asked.animation.number});
+    if (asked.compare.right && !asked.compare.right->empty()) {
+        commands.emplace_back(asked.compare);
+    }
     if (asked.material_variant) {
         commands.emplace_back(session::SetMaterialVariant{*asked.material_variant});
     }
@@ -316,6 +345,9 @@ viewOf(const session::SharedContext& scene, const Entries& entries, TimePoint no
         apply(session::SetDebugView{{}, asked.frozen});
     }
     if (state) {
+        if (state->comparison) {
+            state->comparison->divided = true;
+        }
         state->delivery = {.adaptive = false, .target_fps = 0, .refine = settings::Refine::kNone};
     }
     return state;

@@ -177,6 +177,28 @@ TEST(Still, IsTheRenderedPicture_ToTheBit) {
     EXPECT_EQ(decodePng(bodyOf(answer)), wanted);
 }
 
+// Both sides of one frame, with a divider; what the server measures is what the command does.
+TEST(Still, OfAComparison_IsTheRenderedOne_ToTheBit) {
+    const Rgb wanted = decodePng(
+        renderedFile(".png", {"--compare", "as-set", "light_cutoff:0.05", "--split", "0.25"}));
+    ServerProcess server({"--size", "64x64", "--lights", "5"});
+    const uint16_t port = server.port().value();
+    const std::string view =
+        "/render?look=rainbow&size=320x180&lights=100&light_radius=3&renderer=forward_plus&"
+        "light_time=1&compare_split=0.25&compare=light_cutoff:0.05&format=";
+    const std::string answer = httpGetOnceThere(port, view + "png");
+    ASSERT_EQ(statusOf(answer), 200) << answer.substr(0, 1000);
+    EXPECT_EQ(decodePng(bodyOf(answer)), wanted);
+    EXPECT_NE(answer.find("Froxel-Compared: {\"pixels\":57600,\"differing\":"), std::string::npos)
+        << answer.substr(0, 1000);
+    for (const char* format : {"exr", "json"}) {
+        const std::string refused = httpGet(port, view + format);
+        EXPECT_EQ(statusOf(refused), 400);
+        EXPECT_NE(refused.find("compare fits one picture of the formats jpg and png"),
+                  std::string::npos);
+    }
+}
+
 // By a process without rights, of a file that no folder has.
 TEST(Still, OfAPostedScene_IsTheRenderedPicture_ToTheBit) {
     const auto file = std::filesystem::path(testing::TempDir()) /

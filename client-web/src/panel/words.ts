@@ -6,6 +6,7 @@ export interface Words {
   readonly help: string;
   readonly unit: string;
   readonly cost: string;
+  readonly compares: boolean; // the sides of a comparison may have it otherwise
 }
 
 /** By the fields' names. */
@@ -96,6 +97,7 @@ export function wordsOf(json: unknown): WordBook {
         help: text('help'),
         unit: text('unit'),
         cost: text('cost'),
+        compares: parts.get('compare') === true,
       };
       return text('name') === '' ? [] : [[text('name'), words] as const];
     }),

@@ -95,7 +95,8 @@ export function workerDecoder(worker: WorkerPort): Decode {
       const parts = header.parts.map(({ offset, length, x, y, codec, keyFrame }) => {
         return { offset, length, x, y, codec, keyFrame };
       });
-      const { width, height } = header;
+      const { width } = header;
+      const height = header.compared?.layered ? 2 * header.height : header.height;
       // The message's buffer goes to the worker; nobody reads the payload here afterwards.
       worker.postMessage({ id, width, height, parts, bytes: payload }, [payload.buffer]);
     });

@@ -1,6 +1,7 @@
 // The canvas: paints bitmaps and saves the picture.
 
 import type { Size } from '../core/size';
+import { layerSize, stripsOf } from './layers';
 
 /** The size that was asked for, by a picture of `scale` of it; the canvas has it already, mostly. */
 export function canvasSize(canvas: Size, picture: Size, scale: number): Size {
@@ -13,6 +14,8 @@ export function canvasSize(canvas: Size, picture: Size, scale: number): Size {
 export class Picture {
   private readonly context: CanvasRenderingContext2D;
   private painted = false;
+  private layers: ImageBitmap | null = null; // of the comparison that is shown
+  private split = 0.5;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     const context = canvas.getContext('2d', { alpha: false });
@@ -22,15 +25,48 @@ export class Picture {
 
   /** `scale` is the picture's, of the size asked for: the canvas keeps that size, and its place. */
   paint(bitmap: ImageBitmap, scale: number): void {
+    this.layers?.close();
+    this.layers = null;
+    const size = this.fit(bitmap, scale);
+    this.context.drawImage(bitmap, 0, 0, size.width, size.height);
+  }
+
+  /** Two pictures, one above the other, of which the divider shows a part each. The bitmap is this one's to close. */
+  paintLayers(bitmap: ImageBitmap, scale: number): void {
+    this.layers?.close();
+    this.layers = bitmap;
+    this.fit(layerSize(bitmap), scale);
+    this.paintSides();
+  }
+
+  /** Where the divider of a comparison is, as a share of the width. */
+  setSplit(split: number): void {
+    if (split === this.split) return;
+    this.split = split;
+    this.paintSides();
+  }
+
+  private paintSides(): void {
+    const { layers, canvas, split } = this;
+    if (!layers) return;
+    const layer = layerSize(layers);
+    for (const { from, begin, end } of stripsOf(split, layers)) {
+      const [x, width] = [begin * layer.width, (end - begin) * layer.width];
+      const [toX, toWidth] = [begin * canvas.width, (end - begin) * canvas.width];
+      this.context.drawImage(layers, x, from, width, layer.height, toX, 0, toWidth, canvas.height);
+    }
+  }
+
+  private fit(picture: Size, scale: number): Size {
     const { canvas } = this;
-    const size = canvasSize(canvas, bitmap, scale);
+    const size = canvasSize(canvas, picture, scale);
     if (canvas.width !== size.width || canvas.height !== size.height) {
       canvas.width = size.width;
       canvas.height = size.height;
     }
     this.context.imageSmoothingQuality = 'high';
-    this.context.drawImage(bitmap, 0, 0, size.width, size.height);
     this.painted = true;
+    return size;
   }
 
   /** Whether a page may read back what it painted: some browsers give noise (resistFingerprinting). */

@@ -1,6 +1,7 @@
 // The commands that take one set of settings to another.
 
 import { equal } from '../core/vec3';
+import { CompareShow } from '../gen/froxel/v1/common_pb';
 import type { ClientBody } from '../protocol/framing';
 import { placedChanges } from './placed_lights';
 import { kRows, putAt, type CommandName, type Parts } from './setting_table';
@@ -51,6 +52,8 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
     const value = changesOf(name, from, to);
     if (hasAny(value)) commands.push({ case: name, value } as ClientBody);
   }
+  const compared = compareChanges(from, to);
+  if (hasAny({ ...compared })) commands.push({ case: 'setCompare', value: compared });
   // After the lights that they may stand for.
   for (const value of placedChanges(from.placedLights, to.placedLights)) {
     commands.push({ case: 'setPlacedLights', value });
@@ -116,6 +119,18 @@ function gridChanges(from: Settings, to: Settings): BodyOf<'setGrid'> {
     ...(to.gridAutomatic && switched && { automatic: true }),
     ...(!to.gridAutomatic &&
       (sized || switched) && { grid: { x: to.gridX, y: to.gridY, z: to.gridZ } }),
+  };
+}
+
+/** Another right side ends what was shown of the one before. */
+function compareChanges(from: Settings, to: Settings): BodyOf<'setCompare'> {
+  const another = from.compare !== to.compare;
+  const heatMap = to.compare !== '' && to.compareHeatMap;
+  const before = from.compare !== '' && from.compareHeatMap;
+  return {
+    ...(another && { right: to.compare }),
+    ...(from.compareSplit !== to.compareSplit && { split: to.compareSplit }),
+    ...(heatMap !== before && to.compare !== '' && { show: heatMap ? CompareShow.HEAT_MAP : CompareShow.SIDES }),
   };
 }
 

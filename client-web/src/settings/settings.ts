@@ -2,6 +2,7 @@
 
 import { equal, vec, type Vec } from '../core/vec3';
 import {
+  CompareShow,
   Renderer,
   type BloomKind,
   type Codec,
@@ -79,6 +80,9 @@ export interface Settings extends TableSettings {
   readonly toonCompute: Ramp;
   readonly width: number;
   readonly height: number;
+  readonly compare: string; // what the right side of a comparison has otherwise (comparison.ts); empty: there is none
+  readonly compareSplit: number; // where its divider is, as a share of the width
+  readonly compareHeatMap: boolean; // shows the difference in place of both sides
 }
 
 interface Values {
@@ -163,6 +167,9 @@ export function settingsOf(
     toonCompute: toRamp(state.toonCompute),
     width: state.width,
     height: state.height,
+    compare: state.compare,
+    compareSplit: state.compareSplit,
+    compareHeatMap: state.compareShow === CompareShow.HEAT_MAP,
   };
 }
 

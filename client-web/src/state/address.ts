@@ -48,6 +48,11 @@ function textsOf(settings: Settings): Texts {
   if (settings.lightTime !== null) texts.set('light_time', String(settings.lightTime));
   if (settings.animationTime !== null) texts.set('animation_time', String(settings.animationTime));
   for (const name of kVectors) texts.set(name, formatVec(settings[name]));
+  texts.set('compare', settings.compare);
+  if (settings.compare !== '') {
+    texts.set('compare_split', short(settings.compareSplit));
+    texts.set('compare_show', settings.compareHeatMap ? 'heat_map' : 'sides');
+  }
   if (settings.lightBox) {
     texts.set('light_box', `${formatVec(settings.lightBox.min)};${formatVec(settings.lightBox.max)}`);
   }
@@ -160,6 +165,14 @@ function parseEntry(name: string, text: string): Entry | null {
   if (name === 'animation_time') {
     const animationTime = parseNumber(text);
     return animationTime === null ? null : { settings: { animationTime } };
+  }
+  if (name === 'compare') return { settings: { compare: text } };
+  if (name === 'compare_split') {
+    const compareSplit = parseNumber(text);
+    return compareSplit === null ? null : { settings: { compareSplit } };
+  }
+  if (name === 'compare_show') {
+    return text === 'sides' || text === 'heat_map' ? { settings: { compareHeatMap: text === 'heat_map' } } : null;
   }
   if (name === 'light_box') {
     const lightBox = parseBox(text);

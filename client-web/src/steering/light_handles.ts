@@ -5,7 +5,7 @@
 //   Backspace removes · Escape goes back to the picture
 
 import { make } from '../core/dom';
-import type { Size } from '../core/size';
+import { containedIn, type Rect } from '../core/size';
 import { displayColor } from '../core/srgb';
 import { findLight, kindName, type PlacedLight } from '../settings/placed_lights';
 import type { Settings } from '../settings/settings';
@@ -29,23 +29,6 @@ const kArrows: ReadonlyMap<string, readonly [number, number]> = new Map([
   ['ArrowUp', [0, kStep]],
   ['ArrowDown', [0, -kStep]],
 ]);
-
-interface Rect extends Size {
-  readonly left: number;
-  readonly top: number;
-}
-
-/** Where a picture of that size is in its box, as `object-fit: contain` puts it. */
-export function containedIn(box: Rect, picture: Size): Rect {
-  const factor = Math.min(box.width / picture.width, box.height / picture.height);
-  const [width, height] = [picture.width * factor, picture.height * factor];
-  return {
-    left: box.left + (box.width - width) / 2,
-    top: box.top + (box.height - height) / 2,
-    width,
-    height,
-  };
-}
 
 export class LightHandles {
   private readonly handles = new Map<number, HTMLButtonElement>();

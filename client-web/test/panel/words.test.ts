@@ -29,7 +29,7 @@ describe('words', () => {
 
   it('WhatIsNotUnderstood_IsLeftOut', () => {
     const read = wordsOf([null, 3, 'bloom', [], { help: 'of nothing' }, { name: 5 }, { name: 'a', help: 7, more: 1 }]);
-    expect([...read]).toEqual([['a', { label: '', help: '', unit: '', cost: '' }]]);
+    expect([...read]).toEqual([['a', { label: '', help: '', unit: '', cost: '', compares: false }]]);
     for (const json of [null, undefined, 'words', 5, { name: 'a' }]) expect(wordsOf(json).size).toBe(0);
   });
 });

@@ -109,6 +109,9 @@ describe('addresses', () => {
       ],
       width: 333,
       height: 77,
+      compare: 'renderer:naive,list_cap:16',
+      compareSplit: 0.25,
+      compareHeatMap: true,
     });
     const address = parseAddress(`#${formatAddress(settings, { kind: 'fixed' }, initial)}`);
     expect(address.problems).toEqual([]);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 
 import { vec } from '../../src/core/vec3';
-import { containedIn } from '../../src/steering/light_handles';
+import { containedIn } from '../../src/core/size';
 import { project, unproject } from '../../src/steering/projection';
 import { sampleSettings } from '../sample';
 

@@ -154,6 +154,27 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(first, self.render("b.pfm", "--time", "1.5"))
         self.assertNotEqual(first, self.render("c.pfm", "--time", "1.5", "--seed", "2"))
 
+    def test_comparison_is_measured_and_decides_the_exit_code(self):
+        settings = ["render", "--device", "cpu", "--size", "160x90", "--lights", "60", "--compare"]
+        timings, picture = self.folder / "compared.json", self.folder / "compared.png"
+        run = froxel(*settings, "as-set", "light_loop:all_lights", "--max-flip", "0", "--timings", timings, "--out",
+                     picture)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("\nequal, 14400 pixels compared\n", run.stdout)
+        compared = json.loads(timings.read_text())["compared"]
+        self.assertEqual((compared["differing"], compared["flip"], compared["promised"]), (0, 0, True))
+        self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
+        run = froxel(*settings, "exposure:1", "exposure:4", "--max-flip", "0.01")
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertIn("of 14400 pixels differ, by at most ", run.stdout)
+        self.assertIn("; the first is (0, 0): #", run.stdout)
+        for wrong, words in ((["seed:1", "as-set"], "seed is the same on both sides"),
+                             (["as-set", "renderer:fast"], "renderer: 'fast' is not naive, "),
+                             (["as-set", "as-set", "--out", "a.exr"], "writes .png or .jpg, --out is 'a.exr'")):
+            run = froxel(*settings, *wrong)
+            self.assertEqual(run.returncode, 2, run.stdout)
+            self.assertIn(words, run.stderr)
+
     def test_mean16_is_the_mean_of_16_frames(self):
         out = self.folder / "a.png"
         run = froxel("render", *SMALL, "--out", out, "--antialiasing", "mean16")

@@ -155,6 +155,23 @@ TEST(StillView, Look_IsBelowWhatElseIsSaid) {
     EXPECT_EQ(state.settings.lights.count, 9U);
 }
 
+TEST(StillView, Comparison_IsOnePictureWithADivider) {
+    const auto state = view({{"compare", "renderer:naive,list_cap:8"},
+                             {"compare_split", "0.25"},
+                             {"compare_show", "heat_map"}})
+                           .value();
+    ASSERT_TRUE(state.comparison);
+    EXPECT_EQ(session::textOf(state.comparison->right), "renderer:naive,list_cap:8");
+    EXPECT_EQ(state.comparison->show, session::CompareShow::kHeatMap);
+    EXPECT_TRUE(state.comparison->divided);
+    EXPECT_EQ(state.compare_split, 0.25);
+    EXPECT_FALSE(view({{"compare", ""}, {"compare_show", "sides"}}).value().comparison);
+    expectRefused({{"compare", "seed:5"}}, RejectCode::kOutOfRange,
+                  "compare: seed is the same on both sides");
+    expectRefused({{"compare_split", "2"}}, RejectCode::kOutOfRange, "compare_split: '2' is not");
+    expectRefused({{"compare_show", "both"}}, RejectCode::kOutOfRange, "compare_show: 'both' is");
+}
+
 TEST(StillView, BadEntries_AreToldWhatWouldBeRight) {
     expectRefused({{"nonsense", "1"}}, RejectCode::kUnsupported,
                   "nonsense is not a name of the page's address");
