@@ -32,6 +32,8 @@ namespace {
 
 constexpr settings::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
 constexpr settings::Range<double> kFlipRange{"max_flip", 0, 1};
+constexpr settings::Range<double> kFpsRange{"fps", 1, 1000};
+constexpr settings::Range<double> kPathSecondsRange{"seconds", 0.1, 3600};
 constexpr settings::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
 
 constexpr settings::Range<double> kSecondsPerRowRange{"seconds_per_row", 0.01, 86'400.0};
@@ -78,6 +80,9 @@ std::string sizeHelp(const std::string& what) {
 
 Result<std::filesystem::path> parsePicturePath(const std::string& text) {
     const std::filesystem::path path(text);
+    if (path.filename().empty()) {
+        return path; // a folder, which checkRender() judges
+    }
     const auto format = encode::imageFormatOf(path);
     return format ? Result<std::filesystem::path>(path) : format.error();
 }
@@ -263,14 +268,24 @@ void addComparison(CommandBuilder& command, RenderOptions& options) {
 
 void addOutputs(CommandBuilder& command, RenderOptions& options) {
     command.value("--out", "FILE", options.out, parsePicturePath, "",
-                  "File for the last frame: .png, .jpg, or .exr or .pfm (linear, before exposure)");
+                  "File for the last frame: .png, .jpg, or .exr or .pfm (linear, before exposure). "
+                  "With --path also a folder for all frames: DIR/");
     auto& encoding = options.encoding;
     for (const auto& row : settings::kEncodingRows) {
         if (row.name == "quality" || row.name == "chroma") { // a file is no stream
             addSetting(command, row, encoding);
         }
     }
-    command.number("--frames", options.frame_count, kFramesRange, "Frames to draw, 1/30 s apart");
+    auto* const frames =
+        command.number("--frames", options.frame_count, kFramesRange, "Frames to draw");
+    command.number("--fps", options.fps, kFpsRange, "Frames of a second of the lights' clock");
+    command
+        .text("--path", "FILE|turntable|flythrough", options.path, "",
+              "Path that the camera follows, once: a JSON file of key frames, round what the view "
+              "looks at, or through the scene's cameras")
+        ->excludes(frames);
+    command.number("--path-seconds", options.path_seconds, kPathSecondsRange,
+                   "Duration of a built-in path");
     command.number("--warmup", options.warmup_count, kWarmupRange,
                    "Frames drawn first and not counted");
     command.cli().add_flag("--keep-surfaces", options.keep_surfaces,
@@ -426,8 +441,16 @@ void checkRender(const CLI::App& command, const RenderOptions& options) {
     if (options.out.empty() && options.timings.empty() && options.compare.empty()) {
         throw CLI::RequiredError("--out FILE, --timings FILE or both");
     }
+    if (options.writesFolder() && options.path.empty()) {
+        throw CLI::ValidationError(
+            "--out", fmt::format("'{}' is a folder, which needs --path; without one, name a file",
+                                 options.out.string()));
+    }
     if (options.compare.empty() && options.max_flip) {
         throw CLI::ValidationError("--max-flip", "needs --compare");
+    }
+    if (!options.compare.empty() && options.writesFolder()) {
+        throw CLI::ValidationError("--compare", "writes one picture, not a folder");
     }
     if (!options.compare.empty() && !options.out.empty() &&
         !encode::outputsOf(*encode::imageFormatOf(options.out)).none()) {
@@ -435,7 +458,7 @@ void checkRender(const CLI::App& command, const RenderOptions& options) {
             "--compare", fmt::format("writes .png or .jpg, --out is '{}'", options.out.string()));
     }
     for (const char* name : {"--quality", "--chroma"}) {
-        const bool jpeg = !options.out.empty() &&
+        const bool jpeg = !options.out.empty() && !options.writesFolder() &&
                           *encode::imageFormatOf(options.out) == encode::ImageFormat::kJpeg;
         if (command.count(name) > 0 && !jpeg) {
             throw CLI::ValidationError(

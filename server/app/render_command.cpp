@@ -1,5 +1,6 @@
 #include "app/render_command.h"
 
+#include "app/camera_path_option.h"
 #include "app/environment_file.h"
 #include "app/output_file.h"
 #include "app/scene_camera.h"
@@ -21,9 +22,13 @@
 #include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -33,7 +38,7 @@ namespace {
 
 // That the picture's file is made of; none: pixels.
 Outputs outputsOf(const RenderOptions& options) {
-    return options.out.empty() || !options.compare.empty()
+    return options.out.empty() || options.writesFolder() || !options.compare.empty()
                ? Outputs{}
                : encode::outputsOf(encode::imageFormatOf(options.out).value());
 }
@@ -103,14 +108,28 @@ TimedRun describeRun(const RenderOptions& options,
             .settings = beginningOf(options.scene, scene, options.settings, options.given,
                                     options.look, device.is_cpu),
             .time_s = options.time_s,
-            .step_s = report::lightStepS(options.settings.lights),
+            .step_s =
+                report::lightStepS(options.settings.lights) / report::kFrameStepS / options.fps,
             .warmup_count = options.warmup_count,
             .frames = {}};
 }
 
-// Draws every picture and fills run.frames; returns the last one.
+// FOLDER/00001.png and so on.
+void writeFrame(const RenderOptions& options, const Still& still, uint32_t index) {
+    const auto file = options.out / fmt::format("{:05}.png", index + 1);
+    encode::writeImage(file, still.pixels(), options.encoding).value();
+}
+
+uint32_t frameCountOf(const RenderOptions& options, const path::CameraPath* path) {
+    return path == nullptr
+               ? options.frame_count
+               : std::max(1U, static_cast<uint32_t>(std::lround(path->seconds() * options.fps)));
+}
+
+// Draws every picture and fills run.frames; returns the last one. `path`: null: the camera rests.
 Still drawAll(const RenderOptions& options,
               const motion::Playback& playback,
+              const path::CameraPath* path,
               render::ViewRenderer& viewer,
               TimedRun& run) {
     render::FrameInputs inputs{.settings = run.settings,
@@ -121,11 +140,18 @@ Still drawAll(const RenderOptions& options,
         draw(viewer, inputs);
     }
     Still last;
-    for (uint32_t i = 0; i < options.frame_count; ++i) {
+    const uint32_t frame_count = frameCountOf(options, path);
+    for (uint32_t i = 0; i < frame_count; ++i) {
         inputs.time_s = run.time_s + i * run.step_s;
-        inputs.playing = playback.at(run.time_s + i * report::kFrameStepS);
-        inputs.outputs = i + 1 == options.frame_count ? outputsOf(options) : Outputs{};
+        inputs.playing = playback.at(run.time_s + i / options.fps);
+        inputs.outputs = i + 1 == frame_count ? outputsOf(options) : Outputs{};
+        if (path != nullptr) {
+            inputs.settings.camera = path->at(i / options.fps);
+        }
         last = drawStill(viewer, inputs, run.frames);
+        if (options.writesFolder()) {
+            writeFrame(options, last, i);
+        }
     }
     return last;
 }
@@ -158,13 +184,18 @@ class Drawing {
               posed(options),
               {},
               {.detail_levels = run_.settings.geometry_error_px > 0 || !options.compare.empty(),
-               .geometry_cache = options.device.pipeline_cache.folder}) {}
+               .geometry_cache = options.device.pipeline_cache.folder}) {
+        if (!options.path.empty()) {
+            path_ = readCameraPath(options.path, scene_, run_.settings.camera, options.path_seconds)
+                        .value();
+        }
+    }
 
     [[nodiscard]] const TimedRun& start() const { return run_; }
     // Draws every picture and fills run.frames; returns the last one.
     [[nodiscard]] Still draw(const RenderOptions& options, TimedRun& run) {
         render::ViewRenderer viewer(renderer_);
-        return drawAll(options, playback_, viewer, run);
+        return drawAll(options, playback_, path_ ? &*path_ : nullptr, viewer, run);
     }
 
   private:
@@ -204,6 +235,7 @@ class Drawing {
     TimedRun run_;
     const motion::Playback playback_;
     render::Renderer renderer_;
+    std::optional<path::CameraPath> path_;
 };
 
 void printTimes(const TimedRun& run, const nlohmann::ordered_json& timings) {
@@ -226,7 +258,7 @@ void tellFiles(const RenderOptions& options) {
 void drawOne(const RenderOptions& options, Drawing& drawing) {
     TimedRun run = drawing.start();
     const auto last = drawing.draw(options, run);
-    if (!options.out.empty()) {
+    if (!options.out.empty() && !options.writesFolder()) {
         writePicture(options, last);
     }
     const auto timings = timingsReport(run);
@@ -302,6 +334,10 @@ int drawBoth(const RenderOptions& options, Drawing& drawing) {
 } // namespace
 
 int runRender(const RenderOptions& options) try {
+    if (options.writesFolder()) {
+        std::error_code failure; // writing says what is wrong
+        std::filesystem::create_directories(options.out, failure);
+    }
     for (const auto* file : {&options.out, &options.timings}) {
         if (!file->empty()) {
             requireFolderOf(*file);

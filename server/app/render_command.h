@@ -31,8 +31,14 @@ struct RenderOptions {
     std::optional<CameraChoice> grid_camera; // of the debug view cluster_wires
     double time_s = 0;                       // the lights' clock of the first frame
     settings::Encoding encoding;
-    std::filesystem::path out; // empty: no picture; else .png, .jpg or .pfm, of the last frame
-    uint32_t frame_count = 1;  // frame k is drawn at time_s + k * report::lightStepS()
+    // Empty: no picture; else .png, .jpg, .exr or .pfm, of the last frame; or, of a camera path, a
+    // folder, whose name ends with a slash, for all of them.
+    std::filesystem::path out;
+    uint32_t frame_count = 1; // frame k is drawn k / fps later, by the lights' clock too
+    double fps = 30;
+    // That the camera follows, as --path has it, for as many frames as it has; empty: it rests.
+    std::string path;
+    double path_seconds = 10; // of a built-in path
     // Drawn at time_s before the first frame and not counted: the first frame of a run compiles
     // pipelines and sizes the light lists.
     uint32_t warmup_count = 3;
@@ -42,6 +48,8 @@ struct RenderOptions {
     std::vector<session::SettingChanges> compare;
     double compare_split = 0.5;     // where the divider of their picture is
     std::optional<double> max_flip; // of the two sides; none: any
+
+    [[nodiscard]] bool writesFolder() const { return !out.empty() && out.filename().empty(); }
 };
 
 // Frames are drawn one after another, each collected before the next is submitted. The exit code:

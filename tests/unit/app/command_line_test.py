@@ -175,6 +175,28 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(run.returncode, 2, run.stdout)
             self.assertIn(words, run.stderr)
 
+    def test_path_draws_every_frame_of_it(self):
+        path, out = self.folder / "path.json", self.folder / "frames"
+        path.write_text(json.dumps({"seconds": 0.4, "keys": [
+            {"eye": [-9, 2, 0], "target": [0, 2, 0]}, {"eye": [-5, 2, 0], "target": [0, 2, 0]}]}))
+        run = froxel("render", *SMALL, "--path", path, "--fps", "10", "--out", f"{out}/")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("4 frames of 64x36", run.stdout)
+        frames = sorted(out.iterdir())
+        self.assertEqual([frame.name for frame in frames], [f"{i:05}.png" for i in range(1, 5)])
+        self.assertEqual(len({frame.read_bytes() for frame in frames}), 4)
+        still = self.render("still.png", "--camera", "-9,2,0;0,2,0;45", "--time", "0")
+        self.assertEqual(frames[0].read_bytes(), still)
+        for wrong, words in (([path, "--out", "frames.txt"], "frames.txt"),
+                             (["orbit", "--out", f"{out}/"], "cannot read 'orbit'")):
+            run = froxel("render", *SMALL, "--path", *wrong)
+            self.assertNotEqual(run.returncode, 0)
+            self.assertIn(words, run.stderr)
+        path.write_text('{"keys": [{"eye": [0, 0, 0], "target": [0, 0, 0]}]}')
+        run = froxel("render", *SMALL, "--path", path, "--out", f"{out}/")
+        self.assert_refused(run, 2, "path.json: keys[0].target is where the eye is")
+        self.assert_refused(froxel("render", *SMALL, "--out", f"{out}/"), 2, "is a folder, which needs --path")
+
     def test_mean16_is_the_mean_of_16_frames(self):
         out = self.folder / "a.png"
         run = froxel("render", *SMALL, "--out", out, "--antialiasing", "mean16")
