@@ -316,7 +316,7 @@ int drawBoth(const RenderOptions& options, Drawing& drawing) {
                                .split = options.compare_split,
                                .left_encoding = encodings[0],
                                .right_encoding = encodings[1],
-                               .measures_flip = true};
+                               .flip_wanted = true};
     const PixelLease picture = stream::compose(both, std::move(sides[1]), record);
     const PixelView& pixels = picture.view();
     const uint64_t pixel_count = uint64_t{pixels.width_px} * pixels.height_px;

@@ -72,7 +72,7 @@ PixelLease compose(ComparedSides& sides, PixelLease right, session::ComparedReco
     measure(left_view, right_view, record);
     const bool heat = sides.show == session::CompareShow::kHeatMap;
     std::optional<image_metrics::Plane<float>> errors;
-    if (heat || (sides.measures_flip && record.differing_count > 0)) {
+    if (heat || (sides.flip_wanted && record.differing_count > 0)) {
         errors = image_metrics::flipErrors(left_view, right_view);
         record.flip = image_metrics::meanOf(*errors);
     }

@@ -126,7 +126,8 @@ void FramePipeline::startEncoding() {
                               },
                               videoJob(*encoding_),
                               this,
-                              composition()};
+                              composition(),
+                              encoding_->compared && encoding_->compared->measuresFlip()};
         taken = pool_.submit(std::move(job));
     } // a lease that was not taken ends here
     if (!taken) {

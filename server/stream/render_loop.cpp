@@ -745,7 +745,7 @@ RenderLoop::sidesOf(BegunFrame& right, FrameStats& right_stats, TimePoint now) {
                       .split = right.state.compare_split,
                       .left_encoding = right.state.encoding,
                       .right_encoding = session::rightOf(right.state).encoding,
-                      .measures_flip = rests || comparison.divided});
+                      .flip_wanted = rests || comparison.divided});
 }
 
 // Whoever joined meanwhile is told too. The device is asked nothing more and nothing that it may

@@ -62,6 +62,28 @@ TEST(EncodePool, Prepare_MakesThePicture) {
     EXPECT_EQ(*frame.bytes, JpegEncoder().encode(picture.view(), kEncoding).value());
 }
 
+// A viewer whose pictures are measured for long does not keep others' waiting.
+TEST(EncodePool, WhatIsPreparedForLong_HasThreadsOfItsOwn) {
+    const Picture picture = makePicture(64, 48);
+    EncodePool pool(1, 4);
+    std::promise<void> go;
+    std::promise<void> slow_done;
+    auto slow =
+        job({picture.view(), [] {}}, [&](const Result<EncodedFrame>&) { slow_done.set_value(); });
+    slow.prepare = [&go](PixelLease pixels) {
+        go.get_future().wait();
+        return pixels;
+    };
+    slow.prepares_long = true;
+    ASSERT_TRUE(pool.submit(std::move(slow)));
+    std::promise<void> quick;
+    ASSERT_TRUE(pool.submit(
+        job({picture.view(), [] {}}, [&](const Result<EncodedFrame>&) { quick.set_value(); })));
+    quick.get_future().wait();
+    go.set_value();
+    slow_done.get_future().wait();
+}
+
 TEST(EncodePool, PrepareWithoutMemory_FailsThatJobAlone) {
     const Picture picture = makePicture(64, 48);
     std::promise<Result<EncodedFrame>> failed;
