@@ -521,11 +521,17 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
 void RenderLoop::noteEstimate(Viewer& viewer, BegunFrame& frame, const FrameWork& work) {
     frame.estimate = work.estimate;
     frame.limit_share = work.limit_share;
+    if (frame.isLeftSide()) {
+        return; // the picture is both
+    }
     const double scale = frame.record.delivered.scale;
     if (scale < 1 && scale == viewer.affordable.scale()) {
+        const BegunFrame* left = frame.left.get();
+        const Seconds estimate = work.estimate + (left != nullptr ? left->estimate : Seconds(0));
+        const double share = std::max(work.limit_share, left != nullptr ? left->limit_share : 0);
         // What was asked for takes about that much more.
-        frame.record.full_size_us = Microseconds(work.estimate).count() / (scale * scale);
-        viewer.affordable.onEstimate(work.limit_share, scale);
+        frame.record.full_size_us = Microseconds(estimate).count() / (scale * scale);
+        viewer.affordable.onEstimate(share, scale);
     }
 }
 
@@ -649,6 +655,7 @@ void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame draw
     if (frame.isLeftSide()) {
         frame.drawn = std::move(drawn);
         frame.record.render_us = Microseconds(now - frame.began).count();
+        ++options_.fates->rendered;
         ++options_.fates->samples;
         --viewer.started; // the right side uses the credit
         return;
@@ -714,6 +721,8 @@ void RenderLoop::keepRate(Viewer& viewer, const BegunFrame& frame, TimePoint now
 bool RenderLoop::takeLeft(Viewer& viewer, BegunFrame& right) {
     const BegunFrame& left = *right.left;
     if (!left.drawn) {
+        ++options_.fates->rendered;
+        ++options_.fates->samples;
         --viewer.started;
         viewer.submitted.reset();
         viewer.changed = true;

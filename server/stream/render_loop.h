@@ -143,7 +143,7 @@ class RenderLoop final : public session::StreamPort {
     void finishPiece(Viewer& viewer, BegunFrame& frame, Result<Collected> collected);
     void finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame drawn);
     void keepRate(Viewer& viewer, const BegunFrame& frame, TimePoint now);
-    [[nodiscard]] static bool takeLeft(Viewer& viewer, BegunFrame& right);
+    [[nodiscard]] bool takeLeft(Viewer& viewer, BegunFrame& right);
     [[nodiscard]] static std::shared_ptr<ComparedSides>
     sidesOf(BegunFrame& right, FrameStats& right_stats, TimePoint now);
     [[nodiscard]] Seconds newcomersCost();
