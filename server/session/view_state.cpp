@@ -1,5 +1,6 @@
 #include "session/view_state.h"
 
+#include "session/proto_enums.h"
 #include "session/proto_vec.h"
 #include "session/setting_fields.h"
 
