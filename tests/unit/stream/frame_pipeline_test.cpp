@@ -203,6 +203,7 @@ TEST_F(FramePipelineTest, Push_BehindALosslessThatWaits_TakesItsPlace) {
     encode::EncodePool pool(1, 4);
     std::latch release(1);
     occupy(pool, release, true);
+    occupy(pool, release); // so that the second one is there to be counted
     const auto pipeline = makePipeline(pool);
     DrawnFrame rest = frame(1);
     rest.record.delivered = session::delivered({}, {}, session::Refinement::kLossless);
