@@ -172,6 +172,23 @@ std::string medianText(const nlohmann::ordered_json& time) {
                           : fmt::format("{:.1f} ms", time["median"].get<double>() / 1000);
 }
 
+// Of settings that have these otherwise.
+session::SessionState
+changed(const RenderOptions& options, const TimedRun& run, const session::SettingChanges& changes) {
+    session::SessionState state{run.settings, options.encoding, {}, {{}, 1, false}, {}};
+    for (const session::SettingChange& change : changes) {
+        change.setting->set(state, change.value);
+    }
+    return state;
+}
+
+bool usesDetailLevels(const RenderOptions& options, const TimedRun& run) {
+    return run.settings.geometry_error_px > 0 ||
+           std::ranges::any_of(options.compare, [&](const session::SettingChanges& side) {
+               return changed(options, run, side).settings.geometry_error_px > 0;
+           });
+}
+
 // The scene on the device, and the run that a picture of it begins with.
 class Drawing {
   public:
@@ -179,12 +196,11 @@ class Drawing {
         : scene_(readScene(options)), device_(options.device),
           run_(startOf(options, scene_, device_.traits())),
           playback_(scene_.motion, run_.settings.animation, 0),
-          renderer_(
-              device_,
-              posed(options),
-              {},
-              {.detail_levels = run_.settings.geometry_error_px > 0 || !options.compare.empty(),
-               .geometry_cache = options.device.pipeline_cache.folder}) {
+          renderer_(device_,
+                    posed(options),
+                    {},
+                    {.detail_levels = usesDetailLevels(options, run_),
+                     .geometry_cache = options.device.pipeline_cache.folder}) {
         if (!options.path.empty()) {
             path_ = readCameraPath(options.path, scene_, run_.settings.camera, options.path_seconds)
                         .value();
@@ -269,16 +285,6 @@ void drawOne(const RenderOptions& options, Drawing& drawing) {
     if (last.frame.stats.details->legend) {
         fmt::print("{}\n", legendLine(*last.frame.stats.details->legend));
     }
-}
-
-// Of settings that have these otherwise.
-session::SessionState
-changed(const RenderOptions& options, const TimedRun& run, const session::SettingChanges& changes) {
-    session::SessionState state{run.settings, options.encoding, {}, {{}, 1, false}, {}};
-    for (const session::SettingChange& change : changes) {
-        change.setting->set(state, change.value);
-    }
-    return state;
 }
 
 // Owns what it shows.
