@@ -6,6 +6,7 @@
 #include "app/report_page.h"
 #include "bench/html.h"
 #include "core/clock.h"
+#include "core/packed_pixels.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "diff/folders.h"
@@ -17,7 +18,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <mutex>
 #include <new>
 #include <openssl/evp.h>
 #include <system_error>
@@ -103,8 +103,9 @@ Result<Read> read(const Sides& files) {
 }
 
 std::vector<std::byte> pngOf(const std::vector<std::byte>& rgba8, const PictureSize& size) {
-    const PixelView view{rgba8.data(), size.width_px, size.height_px, size_t{4} * size.width_px};
-    return png::write(view, {.compression = png::Compression::kDefault}).value();
+    return png::write(packedView(rgba8, size.width_px, size.height_px),
+                      {.compression = png::Compression::kDefault})
+        .value();
 }
 
 // OUT/NAME.flip.png.
@@ -116,9 +117,7 @@ void writeHeatMap(const fs::path& out,
     fs::create_directories(file.parent_path(), failure); // writing says what is wrong
     const auto rgba8 = image_metrics::heatMap(difference.flip_errors);
     const auto& size = difference.size;
-    encode::writeImage(file,
-                       {rgba8.data(), size.width_px, size.height_px, size_t{4} * size.width_px}, {})
-        .value();
+    encode::writeImage(file, packedView(rgba8, size.width_px, size.height_px), {}).value();
 }
 
 // Fills the pair; any thread.

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/frame_stats.h"
 #include "core/linear_image.h"
+#include "core/packed_pixels.h"
 #include "core/pixel_view.h"
 #include "scene/scene.h"
 #include "settings/settings.h"
@@ -26,7 +27,7 @@ struct Picture {
     GridStats grid;
 
     [[nodiscard]] PixelView shown() const {
-        return {rgba8.data(), linear.width_px, linear.height_px, size_t{linear.width_px} * 4};
+        return packedView(rgba8, linear.width_px, linear.height_px);
     }
 };
 

@@ -2,6 +2,7 @@
 
 #include "core/assert.h"
 #include "core/clock.h"
+#include "core/packed_pixels.h"
 #include "encode/jpeg_encoder.h"
 #include "jpeg/reader.h"
 
@@ -28,8 +29,7 @@ measureStream(const PixelView& shown, const settings::Encoding& encoding, size_t
     if (const auto read = jpeg::readPixels(jpeg.value(), decoded); !read) {
         return read.error();
     }
-    const PixelView seen{decoded.data(), shown.width_px, shown.height_px,
-                         size_t{4} * shown.width_px};
+    const PixelView seen = packedView(decoded, shown.width_px, shown.height_px);
     const auto bytes = jpeg.value().size();
     return StreamError{.encoding = encoding,
                        .bytes = bytes,

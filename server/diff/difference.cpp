@@ -1,5 +1,7 @@
 #include "diff/difference.h"
 
+#include "core/packed_pixels.h"
+
 #include <spdlog/fmt/fmt.h>
 
 #include <array>
@@ -8,10 +10,6 @@
 
 namespace froxel::diff {
 namespace {
-
-PixelView viewOf(const std::vector<std::byte>& rgba8, const PictureSize& size) {
-    return {rgba8.data(), size.width_px, size.height_px, size_t{4} * size.width_px};
-}
 
 Difference
 measureRadiance(const LinearImage& picture, const LinearImage& reference, double tolerance) {
@@ -23,9 +21,10 @@ measureRadiance(const LinearImage& picture, const LinearImage& reference, double
     if (difference.equal()) {
         return difference;
     }
+    const auto [width, height] = difference.size;
     difference.mssim = image_metrics::structuralSimilarity(
-        viewOf(image_metrics::shownAsReference(picture, reference), difference.size),
-        viewOf(image_metrics::shownAsReference(reference, reference), difference.size));
+        packedView(image_metrics::shownAsReference(picture, reference), width, height),
+        packedView(image_metrics::shownAsReference(reference, reference), width, height));
     auto errors = image_metrics::hdrFlipErrors(picture, reference);
     difference.flip =
         errors ? image_metrics::meanOf(*errors) : std::numeric_limits<double>::quiet_NaN();

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/linear_image.h"
+#include "core/packed_pixels.h"
 #include "core/picture_size.h"
 #include "core/pixel_view.h"
 
@@ -21,7 +22,7 @@ struct ShownPicture {
     std::vector<std::byte> rgba8; // [height][width][4], top row first
 
     [[nodiscard]] PixelView view() const {
-        return {rgba8.data(), size.width_px, size.height_px, size_t{4} * size.width_px};
+        return packedView(rgba8, size.width_px, size.height_px);
     }
 };
 

@@ -1,5 +1,6 @@
 #include "stream/compared_picture.h"
 
+#include "core/packed_pixels.h"
 #include "diff/composition.h"
 #include "encode/jpeg_encoder.h"
 #include "image_metrics/picture_error.h"
@@ -18,17 +19,13 @@ namespace {
 
 using Pixels = std::vector<std::byte>;
 
-PixelView viewOf(const Pixels& rgba8, const PixelView& like) {
-    return {rgba8.data(), like.width_px, like.height_px, size_t{4} * like.width_px};
-}
-
 // As a client sees a side that is sent as such a JPEG.
 PixelView coded(const PixelView& pixels, const settings::Encoding& encoding, Pixels& rgba8) {
     encode::JpegEncoder encoder;
     rgba8.resize(size_t{4} * pixels.width_px * pixels.height_px);
     const auto file = encoder.encode(pixels, encoding);
     const bool shown = file && jpeg::readPixels(*file, rgba8);
-    return shown ? viewOf(rgba8, pixels) : pixels;
+    return shown ? packedView(rgba8, pixels.width_px, pixels.height_px) : pixels;
 }
 
 uint32_t rgbOf(const std::array<float, 3>& color) {
@@ -41,8 +38,7 @@ uint32_t rgbOf(const std::array<float, 3>& color) {
 // Owns its pixels.
 PixelLease leaseOf(Pixels pixels, uint32_t width_px, uint32_t height_px) {
     auto kept = std::make_shared<const Pixels>(std::move(pixels));
-    const PixelView view{kept->data(), width_px, height_px, size_t{4} * width_px};
-    return {view, [kept] {}};
+    return {packedView(*kept, width_px, height_px), [kept] {}};
 }
 
 void measure(const PixelView& left, const PixelView& right, session::ComparedRecord& record) {

@@ -1,6 +1,7 @@
 // Pictures of the built-in scene against committed ones that a person has looked at.
 // FROXEL_UPDATE_GOLDEN=1 writes them anew: look at each before committing it, and say why.
 #include "builtin_scene/hall.h"
+#include "core/packed_pixels.h"
 #include "diff/difference.h"
 #include "encode/image_file.h"
 #include "scene/looks.h"
@@ -48,8 +49,7 @@ render::FrameInputs inputsFor(const scene::Scene& scene) {
 void expectAsCommitted(const Picture& picture, const std::string& name) {
     SCOPED_TRACE(name);
     const auto path = test::repositoryPath("tests/render/golden") / ("hall_" + name + ".png");
-    const PixelView pixels{picture.rgba8.data(), picture.width_px, picture.height_px,
-                           size_t{4} * picture.width_px};
+    const PixelView pixels = packedView(picture.rgba8, picture.width_px, picture.height_px);
     if (std::getenv("FROXEL_UPDATE_GOLDEN") != nullptr) {
         ASSERT_TRUE(encode::writeImage(path, pixels, {}));
         return;
