@@ -12,8 +12,24 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 
+HEAD_LINES, TAIL_LINES, LINE_CHARACTERS = 3, 8, 300
+
+
+def reason(case):
+    """Why a test failed: the first lines of what its report says, and the last ones, where a log ends."""
+    fault = case.find("failure")
+    fault = case.find("error") if fault is None else fault
+    text = fault.text or ""
+    if not text.strip():  # ctest puts what the test printed beside the failure
+        text = f"{fault.get('message') or ''}\n{case.findtext('system-out') or ''}"
+    lines = [line[:LINE_CHARACTERS] for line in text.splitlines() if line.strip()]
+    if len(lines) > HEAD_LINES + TAIL_LINES:
+        lines[HEAD_LINES:-TAIL_LINES] = ["..."]
+    return lines
+
+
 def count(report, inner=None):
-    """(passed, failed names, skipped names) of a JUnit report."""
+    """(passed, failed, skipped names) of a JUnit report, where failed has a name and lines that say why."""
     passed, failed, skipped = 0, [], []
     for case in ElementTree.parse(report).iter("testcase"):
         name = f"{case.get('classname', '')} {case.get('name', '')}".strip()
@@ -25,9 +41,9 @@ def count(report, inner=None):
             failed += counts[1]
             skipped += counts[2]
             if failure and not counts[1]:  # such as by a crash after the last of them
-                failed.append(name)
+                failed.append((name, reason(case)))
         elif failure:
-            failed.append(name)
+            failed.append((name, reason(case)))
         elif case.find("skipped") is not None or case.get("status") == "notrun":
             skipped.append(name)
         else:
@@ -40,7 +56,7 @@ def count_stage(reports, inner, name, exit_code):
     report = reports / f"{name}.xml"
     passed, failed, skipped = count(report, inner) if report.exists() else (int(exit_code == 0), [], [])
     if exit_code != 0 and not failed:
-        failed = [f"{name}: exit code {exit_code}"]
+        failed = [(f"{name}: exit code {exit_code}", [])]
     return passed, failed, skipped
 
 
@@ -89,8 +105,8 @@ def main():
     tell_times(stages, reports, inner)
     for name in all_skipped:
         print(f"SKIPPED {name}")
-    for name in all_failed:
-        print(f"FAILED {name}")
+    for name, why in all_failed:
+        print(f"FAILED {name}", *why, sep="\n    ")
     print(f"\n{total_passed} passed, {len(all_failed)} failed")
     return 1 if all_failed else 0
 

@@ -48,6 +48,17 @@ class Summary(unittest.TestCase):
         self.assertIn("4 passed, 1 failed", said)
         self.assertIn("FAILED Text Empty_Stays", said)
 
+    def test_a_failure_says_why_by_its_first_and_last_lines(self):
+        log = "\n".join(["died of SIGSEGV", *(f"line {i}" for i in range(40)), "the last"])
+        _, said = self.summary(8, GTEST.format(failure=f'<failure message="short">{log}</failure>'), FAILURE)
+        self.assertIn("FAILED Text Empty_Stays\n    died of SIGSEGV\n    line 0\n    line 1\n    ...\n    line 33\n", said)
+        self.assertIn("    line 39\n    the last\n\n", said)
+
+    def test_a_failure_of_ctest_says_the_end_of_its_output(self):
+        failure = '<failure message="Failed"/><system-out>all is ready\nvalue is 3; it must be 4</system-out>'
+        _, said = self.summary(8, None, failure)
+        self.assertIn("FAILED core_test\n    Failed\n    all is ready\n    value is 3; it must be 4\n", said)
+
     def test_an_executable_that_crashed_is_a_failure(self):
         code, said = self.summary(8, None, FAILURE)
         self.assertEqual(code, 1)
