@@ -56,10 +56,11 @@ function firstUrl(child: ChildProcess, log: readonly string[]): Promise<string> 
 }
 
 function stop(child: ChildProcess, log: readonly string[]): Promise<number | null> {
-  if (child.signalCode !== null) {
-    throw new Error(`froxel serve had died of ${child.signalCode}\n${log.join('')}`);
+  if (child.exitCode === 0) return Promise.resolve(0);
+  if (child.signalCode !== null || child.exitCode !== null) {
+    const end = child.signalCode ? `died of ${child.signalCode}` : `ended with ${String(child.exitCode)}`;
+    throw new Error(`froxel serve had ${end}\n${log.join('')}`);
   }
-  if (child.exitCode !== null) return Promise.resolve(child.exitCode);
   return new Promise((resolve) => {
     const timer = setTimeout(() => child.kill('SIGKILL'), kStopMs);
     child.once('exit', (code) => {

@@ -44,7 +44,7 @@ Json toJson(const settings::Setting& setting, const settings::SettingValue& valu
     const auto plain = [&setting](const auto& of_kind) -> Json {
         using Value = std::decay_t<decltype(of_kind)>;
         if constexpr (std::is_same_v<Value, settings::Choice>) {
-            return setting.names[of_kind.index];
+            return setting.value_names[of_kind.index];
         } else if constexpr (std::is_same_v<Value, glm::dvec3>) {
             return toJson(of_kind);
         } else {

@@ -123,6 +123,7 @@ static_assert(inOrder());
 
 // Of those in the schema, by the enumerator's number.
 inline constexpr auto kCodecNames = detail::firstNames<detail::kStreamedCount>();
+inline constexpr auto kAllCodecNames = detail::firstNames<kCodecRows.size()>();
 inline constexpr auto kChosenCodecNames = detail::firstNames<detail::kChosenCount>();
 
 // Which of them a client decodes, by the enumerator's number.

@@ -15,7 +15,7 @@ std::string textOf(const Setting& setting, const SettingValue& value) {
         return setting.single ? numberText(static_cast<float>(number)) : numberText(number);
     }
     case SettingKind::kChoice:
-        return std::string(setting.names[std::get<Choice>(value).index]);
+        return std::string(setting.value_names[std::get<Choice>(value).index]);
     case SettingKind::kColor:
         break;
     }

@@ -43,7 +43,9 @@ struct Setting {
     double min = 0; // of numbers and of a colour's components
     double max = 0;
     std::span<const std::string_view> names; // of a choice, in its enumerators' order
-    bool single = false;                     // a real number that is kept as a float
+    // Those, and after them the names of values that a state may have but nobody chooses.
+    std::span<const std::string_view> value_names;
+    bool single = false; // a real number that is kept as a float
     SettingWords words;
     std::string_view member_of; // membersOf<the struct>()
 
@@ -72,6 +74,7 @@ struct Switch {
 struct Names {
     std::string_view field;
     std::span<const std::string_view> names;
+    std::span<const std::string_view> value_names = names;
 };
 struct ColorRange {
     std::string_view field;
@@ -167,6 +170,7 @@ constexpr auto row(const MayBe& may_be, std::string_view path, const SettingWord
     if constexpr (std::is_same_v<MayBe, Names>) {
         static_assert(std::is_enum_v<Member>);
         made.names = may_be.names;
+        made.value_names = may_be.value_names;
     } else if constexpr (std::is_same_v<MayBe, Switch>) {
         static_assert(std::is_same_v<Member, bool>);
     } else {

@@ -342,7 +342,7 @@ inline constexpr std::array kEncodingRows = {
         Names{"chroma", kChromaNames},
         "chroma",
         {"Chroma subsampling", "Colour resolution of streamed pictures", "", "444: more bytes"}),
-    row<&Encoding::codec>(Names{"codec", kChosenCodecNames},
+    row<&Encoding::codec>(Names{"codec", kChosenCodecNames, kAllCodecNames},
                           "codec",
                           {"Codec", "Encoding of pictures in the stream", "",
                            "vp9: a few times fewer bytes, more encoder work"}),

@@ -1,10 +1,13 @@
 // The table of codecs against the schema.
 #include "session/delivery.h"
 #include "session/proto_enums.h"
+#include "session/session_state.h"
+#include "session/settings.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
 
 namespace froxel::session {
 namespace {
@@ -48,6 +51,17 @@ TEST(Codecs, RefinedPictures_StandAlone) {
             EXPECT_FALSE(refined.frames_depend || refined.announced) << row.name;
             EXPECT_EQ(refined.lossless, stage == Refinement::kLossless) << row.name;
         }
+    }
+}
+
+// As the server's log has them of a picture that took long.
+TEST(Codecs, UnusualSettings_NameACodecOfStillsToo) {
+    for (const settings::CodecRow& row : settings::kCodecRows) {
+        const SessionState state{{}, {.codec = row.codec}, {}, {{}, 1, false}, {}};
+        const std::string words = unusualSettings(state);
+        const bool usual = row.codec == settings::Encoding{}.codec;
+        EXPECT_EQ(words.find("codec=" + std::string(row.name)) == std::string::npos, usual)
+            << words;
     }
 }
 

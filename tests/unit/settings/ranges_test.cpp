@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -85,6 +86,16 @@ TEST(Settings, Text_IsTheShortestThatReadsBackInTheMembersOwnType) {
     EXPECT_EQ(text("lights", settings), "1000");
     EXPECT_EQ(text("bloom", settings), "none");
     EXPECT_EQ(text("animate", settings), "true");
+}
+
+// A still may be of a codec that nobody chooses for the stream.
+TEST(Settings, TextOfEveryCodec_IsItsName) {
+    const auto row = std::ranges::find(kEncodingRows, "codec", &Setting::name);
+    ASSERT_NE(row, kEncodingRows.end());
+    EXPECT_LT(row->names.size(), kCodecRows.size());
+    for (const CodecRow& codec : kCodecRows) {
+        EXPECT_EQ(textOf(*row, row->get({.codec = codec.codec})), codec.name);
+    }
 }
 
 } // namespace
