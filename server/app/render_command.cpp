@@ -287,12 +287,6 @@ void drawOne(const RenderOptions& options, Drawing& drawing) {
     }
 }
 
-// Owns what it shows.
-PixelLease leaseOf(Still still) {
-    const auto kept = std::make_shared<const Still>(std::move(still));
-    return {kept->pixels(), [kept] {}};
-}
-
 // Draws both sides of the same frames, one after the other.
 int drawBoth(const RenderOptions& options, Drawing& drawing) {
     std::array<PixelLease, 2> sides;
@@ -304,7 +298,9 @@ int drawBoth(const RenderOptions& options, Drawing& drawing) {
         const auto state = changed(options, run, options.compare[i]);
         run.settings = state.settings;
         encodings[i] = state.encoding;
-        sides[i] = leaseOf(drawing.draw(options, run));
+        Still still = drawing.draw(options, run);
+        const PixelView pixels = still.pixels();
+        sides[i] = owningLease(pixels, std::move(still));
         const char* name = i == 0 ? "left" : "right";
         report[name] = timingsReport(run);
         fmt::print("{}: {}: ", name,

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -73,5 +74,11 @@ class PixelLease {
     PixelView view_;
     std::function<void()> release_;
 };
+
+// Of what `owner` keeps, which may move without its pixels doing so; it goes when the lease ends.
+template <class Owner>
+[[nodiscard]] PixelLease owningLease(const PixelView& view, Owner owner) {
+    return {view, [kept = std::make_shared<Owner>(std::move(owner))] {}};
+}
 
 } // namespace froxel

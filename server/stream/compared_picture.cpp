@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -33,12 +32,6 @@ uint32_t rgbOf(const std::array<float, 3>& color) {
         return static_cast<uint32_t>(std::lround(255 * color[c]));
     };
     return byte(0) << 16U | byte(1) << 8U | byte(2);
-}
-
-// Owns its pixels.
-PixelLease leaseOf(Pixels pixels, uint32_t width_px, uint32_t height_px) {
-    auto kept = std::make_shared<const Pixels>(std::move(pixels));
-    return {packedView(*kept, width_px, height_px), [kept] {}};
 }
 
 void measure(const PixelView& left, const PixelView& right, session::ComparedRecord& record) {
@@ -79,7 +72,8 @@ PixelLease compose(ComparedSides& sides, PixelLease right, session::ComparedReco
                                     : diff::stacked(left_view, right_view);
     sides.left.end();
     right.end();
-    return leaseOf(std::move(pixels), width, record.layered ? 2 * height : height);
+    const PixelView view = packedView(pixels, width, record.layered ? 2 * height : height);
+    return owningLease(view, std::move(pixels));
 }
 
 } // namespace froxel::stream

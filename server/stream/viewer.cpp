@@ -71,10 +71,11 @@ bool Viewer::addSample(const BegunFrame& frame, PixelLease& pixels) {
         return false;
     }
     PixelView view = pixels.view();
-    auto rgba8 = std::make_shared<const std::vector<std::byte>>(mean.take());
-    view.data = rgba8->data();
+    auto rgba8 = mean.take();
+    view.data = rgba8.data();
     view.stride_bytes = size_t{4} * view.width_px;
-    pixels = PixelLease(view, [rgba8] {});
+    // Other outputs are the last sample's.
+    pixels = owningLease(view, std::pair(std::move(rgba8), std::move(pixels)));
     return true;
 }
 
