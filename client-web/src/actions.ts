@@ -11,6 +11,7 @@ export interface Doings {
   readonly open: () => void;
   readonly renderers: () => void;
   readonly compare: () => void;
+  readonly path: () => void;
   readonly pictures: () => void;
   readonly room: () => void;
   readonly figures: () => void;
@@ -48,6 +49,7 @@ export function actionsOf(does: Doings): readonly Entry[] {
     action('Figures', 'f', does.figures, 'Shows the time of each part of a frame', 'statistics passes latency fps'),
     action('Renderers', 'n', does.renderers, 'Shows the five renderers', 'forward deferred naive toon clustered'),
     action('Compare', 'b', does.compare, 'Shows two settings of the same frame side by side', 'difference slider split error flip heat map versus'),
+    action('Camera path', 'y', does.path, 'Moves the camera through key frames of yours', 'animation film movie fly turntable keyframe record'),
     action('Save picture', 'p', does.screenshot, 'Saves the current picture as a PNG file', 'screenshot image download'),
     action('Save picture in a size', '', does.pictures, 'Asks the server for this view in a size of your choice', 'screenshot image download resolution 4k'),
     action('Copy link', 'l', does.copyLink, 'Copies a link to this view', 'share url address'),

@@ -2,6 +2,7 @@
 
 import type { AnimationActions } from './cards/animation_card';
 import type { LookActions } from './cards/looks_card';
+import type { PathActions } from './cards/path_card';
 import type { PictureActions } from './cards/picture_card';
 import type { RendererActions } from './cards/renderers_card';
 import type { RoomActions } from './cards/room_card';
@@ -11,6 +12,7 @@ import type { Size } from './core/size';
 import { add, length, normalize, scale, sub } from './core/vec3';
 import type { Renderer } from './gen/froxel/v1/common_pb';
 import type { PanelActions } from './panel/panel';
+import type { View as PathView } from './path/camera_path';
 import type { Picture } from './picture/picture';
 import type { Connection } from './protocol/connection';
 import type { Recorder } from './protocol/recorder';
@@ -25,7 +27,7 @@ import {
   type PlacedLight,
 } from './settings/placed_lights';
 import { cameraCommand, settingCommands } from './settings/setting_commands';
-import { cameraOf, type Settings, type Value } from './settings/settings';
+import { cameraOf, toVec, type Bounds, type Settings, type Value } from './settings/settings';
 import { centreOf, diagonalOf, fitted, isInside } from './settings/sight';
 import { parseAddress, stillAddress } from './state/address';
 import { kRenderers, rendererLabel } from './state/renderers';
@@ -55,6 +57,7 @@ export class Commands
     RoomActions,
     AnimationActions,
     LookActions,
+    PathActions,
     PictureActions,
     RendererActions
 {
@@ -331,6 +334,31 @@ export class Commands
 
   refused(): void {
     this.allowed();
+  }
+
+  perspective(): PathView | null {
+    const view = this.view();
+    return view === null || view.orthographic ? null : view;
+  }
+
+  setView({ eye, target, up, fovDeg }: PathView): void {
+    this.edit({ eye, target, up, fovDeg });
+  }
+
+  /** The scene's cameras in perspective. */
+  sceneViews(): PathView[] {
+    const views = this.store.state.server?.scene?.cameraViews ?? [];
+    return views
+      .filter(({ fovDeg }) => fovDeg > 0)
+      .map(({ pose, fovDeg }) => ({ eye: toVec(pose?.eye), target: toVec(pose?.target), up: toVec(pose?.up), fovDeg }));
+  }
+
+  sceneBounds(): Bounds | null {
+    return this.store.state.server?.bounds ?? null;
+  }
+
+  keepPath(path: string): void {
+    this.store.dispatch({ type: 'path', path });
   }
 
   setPose(pose: Pose): void {

@@ -7,6 +7,7 @@ import { Banner } from './cards/banner';
 import type { CompareBar } from './cards/compare_bar';
 import { Legend } from './cards/legend';
 import type { LooksCard } from './cards/looks_card';
+import type { PathCard } from './cards/path_card';
 import type { PictureCard } from './cards/picture_card';
 import type { RenderersCard } from './cards/renderers_card';
 import type { RoomCard } from './cards/room_card';
@@ -182,6 +183,7 @@ const scenesCard = new Later(makeScenes, partMissing);
 const renderersCard = new Later(makeRenderers, partMissing);
 const compareBar = new Later(makeCompareBar, partMissing);
 const compareCard = new Later(makeCompareCard, partMissing);
+const pathCard = new Later(makePathCard, partMissing);
 const pictureCard = new Later(makePictures, partMissing);
 const bring = new Later(makeBring, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
@@ -229,6 +231,11 @@ store.listen(({ settings }, before) => {
   if (!settings || settings === before.settings) return;
   picture.setSplit(settings.compareSplit);
   if (settings.compare !== '') void compareBar.want().then((bar) => bar?.show(store.state));
+});
+store.listen(({ path }, before) => {
+  if (path === before.path) return;
+  if (path === '') pathCard.here?.read('');
+  else void pathCard.want().then((card) => card?.read(store.state.path));
 });
 store.listen(({ room }, before) => {
   if (room && !before.room) void roomCard.want().then((card) => card?.show(store.state.room));
@@ -304,6 +311,16 @@ async function makeCompareCard(): Promise<CompareCard> {
     import('./style/compare.css'),
   ]);
   return new CompareCard(commands, await fetchWords());
+}
+
+async function makePathCard(): Promise<PathCard> {
+  const [{ PathCard }] = await Promise.all([
+    import('./cards/path_card'),
+    import('./style/path.css'),
+  ]);
+  const made = new PathCard(commands, nextFrame);
+  made.read(store.state.path);
+  return made;
 }
 
 async function makePictures(): Promise<PictureCard> {
@@ -455,6 +472,7 @@ const doings: Doings = {
   figures: () => statsCard.toggle(),
   renderers: () => void renderersCard.want().then((card) => card?.toggle()),
   compare: () => void compareCard.want().then((card) => card?.toggle()),
+  path: () => void pathCard.want().then((card) => card?.toggle()),
   pictures: () => void pictureCard.want().then((card) => card?.toggle()),
   room: () => void roomCard.want().then((card) => card?.toggle()),
   screenshot: () => (commands.isReadable() ? void commands.saveShown() : doings.pictures()),

@@ -17,6 +17,12 @@
 namespace froxel::session {
 namespace {
 
+void fill(v1::CameraPose& out, const settings::Camera& camera) {
+    fillVec(*out.mutable_eye(), camera.eye_world);
+    fillVec(*out.mutable_target(), camera.target_world());
+    fillVec(*out.mutable_up(), camera.world_from_view[1]);
+}
+
 void fill(v1::SceneInfo& out, const SessionContext& context) {
     const SceneSummary& scene = context.scene;
     out.set_id(context.scene_id);
@@ -29,6 +35,11 @@ void fill(v1::SceneInfo& out, const SessionContext& context) {
     out.set_detail_levels(scene.detail_levels);
     for (const scene::NamedCamera& camera : scene.cameras) {
         out.add_cameras(camera.name);
+        v1::SceneCamera& view = *out.add_camera_views();
+        fill(*view.mutable_pose(), camera.camera);
+        if (camera.camera.projection == settings::Projection::kPerspective) {
+            view.set_fov_deg(glm::degrees(camera.camera.yfov_rad));
+        }
     }
     if (!scene.bounds_world.empty()) {
         fillBox(*out.mutable_bounds(), scene.bounds_world);
@@ -171,12 +182,6 @@ void fill(v1::FrameGrid& out, const GridStats& grid) {
     out.set_far_m(grid.far_m);
     out.set_automatic(grid.automatic);
     out.set_why(grid.why);
-}
-
-void fill(v1::CameraPose& out, const settings::Camera& camera) {
-    fillVec(*out.mutable_eye(), camera.eye_world);
-    fillVec(*out.mutable_target(), camera.target_world());
-    fillVec(*out.mutable_up(), camera.world_from_view[1]);
 }
 
 void fill(v1::PictureCamera& out, const settings::Camera& camera) {

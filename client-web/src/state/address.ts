@@ -13,6 +13,7 @@ export interface Address {
   readonly size: SizeMode | null; // null: the address does not say
   readonly scene: string | null; // its id; null: whatever the server shows
   readonly lightSet: string | null; // of placed lights, as light_set.ts reads it
+  readonly path: string | null; // of the camera, as path_file.ts reads it
   /** One line for each key or value that makes no sense; they have no effect. */
   readonly problems: readonly string[];
 }
@@ -30,6 +31,7 @@ const kFormerNames: ReadonlyMap<string, string> = new Map([
 
 const kScene = 'scene';
 const kPlacedLights = 'placed_lights';
+const kPath = 'path';
 const kVectors = ['eye', 'target', 'up'] as const;
 const kRamps = { toon_fragment: 'toonFragment', toon_compute: 'toonCompute' } as const;
 
@@ -66,14 +68,15 @@ const join = (texts: Iterable<readonly [string, string]>): string =>
 
 /**
  * The fragment, without '#', that turns `initial` into these settings. `size` null: it follows the
- * window as usual. An empty `scene`: the server has no other.
+ * window as usual. An empty `scene`: the server has no other. `path`: of the camera, as path_file.ts writes it.
  */
-export function formatAddress(settings: Settings, size: SizeMode | null, initial: Settings, scene = ''): string {
+export function formatAddress(settings: Settings, size: SizeMode | null, initial: Settings, scene = '', path = ''): string {
   const before = textsOf(initial);
   const texts = new Map<string, string>(scene === '' ? [] : [[kScene, encodeURIComponent(scene)]]);
   for (const [name, text] of textsOf(settings)) if (before.get(name) !== text) texts.set(name, text);
   if (size?.kind === 'auto') texts.set('size', `auto@${short(size.scale)}`);
   if (size?.kind === 'fixed') texts.set('size', `${settings.width}x${settings.height}`);
+  if (path !== '') texts.set(kPath, encodeURIComponent(path));
   return join(texts);
 }
 
@@ -124,6 +127,7 @@ export function parseAddress(fragment: string): Address {
   let size: SizeMode | null = null;
   let scene: string | null = null;
   let lightSet: string | null = null;
+  let path: string | null = null;
   for (const [name, text] of new URLSearchParams(fragment.replace(/^#/, ''))) {
     if (name === kScene) {
       scene = text === '' ? null : text;
@@ -131,6 +135,10 @@ export function parseAddress(fragment: string): Address {
     }
     if (name === kPlacedLights) {
       lightSet = text;
+      continue;
+    }
+    if (name === kPath) {
+      path = text;
       continue;
     }
     if (kStrangers.test(name)) continue;
@@ -142,7 +150,7 @@ export function parseAddress(fragment: string): Address {
       size = found.size ?? size;
     }
   }
-  return { settings, size, scene, lightSet, problems };
+  return { settings, size, scene, lightSet, path, problems };
 }
 
 interface Entry {

@@ -26,7 +26,7 @@ export class AddressKeeper {
   }
 
   read(): void {
-    const { settings, size, scene, lightSet, problems: unread } = parseAddress(location.hash);
+    const { settings, size, scene, lightSet, path, problems: unread } = parseAddress(location.hash);
     const problems = [...unread];
     const { codec, ...others } = settings;
     const decodes = codec === undefined || this.codecs().includes(codec);
@@ -35,7 +35,7 @@ export class AddressKeeper {
     }
     const first = this.store.state.settings === null ? this.wishes : {};
     const wanted = { ...first, ...(decodes ? settings : others) };
-    this.store.dispatch({ type: 'restored', wanted, size, scene });
+    this.store.dispatch({ type: 'restored', wanted, size, scene, path });
     if (lightSet !== null) void this.readLights(lightSet, wanted, scene);
     if (problems.length > 0) {
       this.store.dispatch({ type: 'notice', tone: 'error', text: problems.join('; ') });
@@ -82,7 +82,8 @@ export class AddressKeeper {
     if (before.sizeMode === null && before.server !== null) this.usualSize = state.sizeMode;
     const sizeChosen = before.sizeMode !== null && state.sizeMode !== before.sizeMode;
     const sceneChanged = before.server !== null && sceneOf(state) !== sceneOf(before);
-    if (!sizeChosen && !sceneChanged && !edited(before, state)) return;
+    const pathChanged = before.server !== null && state.path !== before.path;
+    if (!sizeChosen && !sceneChanged && !pathChanged && !edited(before, state)) return;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.write(), kWriteDelayMs);
   }
@@ -90,10 +91,10 @@ export class AddressKeeper {
   /** Brings the address up to date now. */
   write(): void {
     clearTimeout(this.timer);
-    const { settings, sizeMode, server } = this.store.state;
+    const { settings, sizeMode, server, path } = this.store.state;
     if (!settings || !sizeMode || !server) return;
     const size = sizeMode === this.usualSize ? null : sizeMode;
-    history.replaceState(null, '', `#${formatAddress(settings, size, server.initial, sceneOf(this.store.state))}`);
+    history.replaceState(null, '', `#${formatAddress(settings, size, server.initial, sceneOf(this.store.state), path)}`);
   }
 }
 

@@ -77,6 +77,7 @@ export interface AppState {
   readonly room: Room | null; // null: a session of one's own
   readonly chosenLight: number | null; // id of the placed light that is being edited
   readonly pick: Pick | null; // a light asked for, and not answered yet
+  readonly path: string; // the camera path of the address, as path_file.ts writes it; empty: none
   readonly handles: boolean; // whether placed lights have handles over the picture
 }
 
@@ -86,6 +87,7 @@ export type Action =
   | { readonly type: 'edit'; readonly patch: Partial<Settings> }
   | { readonly type: 'choose_light'; readonly id: number | null }
   | { readonly type: 'picking'; readonly pick: Pick }
+  | { readonly type: 'path'; readonly path: string }
   | { readonly type: 'show_handles'; readonly visible: boolean }
   | { readonly type: 'size_mode'; readonly mode: SizeMode }
   | { readonly type: 'sent'; readonly seq: bigint; readonly settings: Settings }
@@ -96,6 +98,7 @@ export type Action =
       readonly wanted: Partial<Settings>;
       readonly size: SizeMode | null;
       readonly scene?: string | null;
+      readonly path?: string | null;
     }
   | ({ readonly type: 'notice' } & Notice)
   | { readonly type: 'dismiss' };
@@ -118,6 +121,7 @@ export const kInitialState: AppState = {
   room: null,
   chosenLight: null,
   pick: null,
+  path: '',
   handles: true,
 };
 
@@ -136,6 +140,8 @@ export function reduce(state: AppState, action: Action): AppState {
       return { ...state, chosenLight: action.id };
     case 'picking':
       return { ...state, pick: action.pick, sentSeq: action.pick.seq };
+    case 'path':
+      return { ...state, path: action.path };
     case 'show_handles':
       return { ...state, handles: action.visible };
     case 'size_mode':
@@ -147,7 +153,7 @@ export function reduce(state: AppState, action: Action): AppState {
     case 'restored':
       return restored(state, action);
     case 'want_scene':
-      return { ...state, wantedScene: action.scene, wanted: {} };
+      return { ...state, wantedScene: action.scene, wanted: {}, path: '' }; // a path is of its scene
     case 'notice':
       return { ...state, notice: { text: action.text, tone: action.tone, stays: action.stays ?? false } };
     case 'dismiss':
@@ -178,7 +184,8 @@ function roomChanged(state: AppState, room: Room): AppState {
 
 type Restored = Extract<Action, { type: 'restored' }>;
 
-function restored(state: AppState, { wanted, size, scene }: Restored): AppState {
+function restored(before: AppState, { wanted, size, scene, path }: Restored): AppState {
+  const state = path == null ? before : { ...before, path };
   const sizeMode = size ?? state.sizeMode;
   if (!mayControl(state.room)) return { ...state, sizeMode };
   const wantedScene = scene && scene !== state.server?.scene?.id ? scene : null;

@@ -213,9 +213,17 @@ describe('addresses', () => {
     expect(address.settings).toMatchObject({ seed });
   });
 
+  it('CameraPath_IsKeptAsItIs_AndItsReaderJudgesIt', () => {
+    const path = '{"seconds":2,"keys":[{"eye":[0,1,2],"target":[0,0,0]}]}';
+    const text = formatAddress(initial, kAuto, initial, '', path);
+    expect(parseAddress(`#${text}`)).toMatchObject({ path, problems: [] });
+    expect(formatAddress(initial, kAuto, initial)).not.toContain('path');
+    expect(parseAddress('#path=nonsense').path).toBe('nonsense');
+  });
+
   it('NothingAfterTheHash_IsNothing', () => {
-    expect(parseAddress('')).toEqual({ settings: {}, size: null, scene: null, lightSet: null, problems: [] });
-    expect(parseAddress('#')).toEqual({ settings: {}, size: null, scene: null, lightSet: null, problems: [] });
+    expect(parseAddress('')).toEqual({ settings: {}, size: null, scene: null, lightSet: null, path: null, problems: [] });
+    expect(parseAddress('#')).toEqual({ settings: {}, size: null, scene: null, lightSet: null, path: null, problems: [] });
   });
 
   it.each([
