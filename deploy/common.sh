@@ -14,13 +14,13 @@ build_packages=(
     libvulkan-dev glslang-tools spirv-tools
     libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev libtinyobjloader-dev lib3mf-dev
     libglm-dev 'libboost-url1.81-dev|libboost-url-dev' libspdlog-dev libcli11-dev
-    libturbojpeg0-dev libpng-dev libwebp-dev libzstd-dev wabt libopenexr-dev libstb-dev libvpx-dev
+    libturbojpeg0-dev libpng-dev libwebp-dev libzstd-dev wabt libopenexr-dev libstb-dev libvpx-dev libmatroska-dev libebml-dev
     libprotobuf-dev protobuf-compiler prometheus-cpp-dev libtomlplusplus-dev libssl-dev
     libseccomp-dev libpoco-dev python3 ca-certificates
 )
 run_packages=(mesa-vulkan-drivers)
 test_packages=(
-    vulkan-validationlayers libgtest-dev libgmock-dev libbenchmark-dev
+    vulkan-validationlayers libgtest-dev libgmock-dev libbenchmark-dev libwebm-dev
     python3-websockets python3-yaml openssl curl git ccache mold clang-format universal-ctags
 )
 build_tools=(c++ cmake ninja pkg-config glslangValidator spirv-val protoc wasm2c node npm)

@@ -46,6 +46,10 @@ struct Run {
     }
     int operator()(const app::ServeOptions& options) const { return app::runServe(options); }
     int operator()(const app::RenderOptions& options) const { return app::runRender(options); }
+    int operator()(const app::RecordOptions& options) const {
+        app::runRecord(options);
+        return 0;
+    }
     int operator()(const app::BenchOptions& options) const { return app::runBench(options); }
     int operator()(const app::LoadOptions& options) const { return app::runLoad(options); }
     int operator()(const app::InfoOptions& options) const {

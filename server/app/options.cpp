@@ -34,6 +34,7 @@ constexpr settings::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
 constexpr settings::Range<double> kFlipRange{"max_flip", 0, 1};
 constexpr settings::Range<double> kFpsRange{"fps", 1, 1000};
 constexpr settings::Range<double> kPathSecondsRange{"seconds", 0.1, 3600};
+constexpr settings::Range<uint32_t> kCrfRange{"crf", 0, 63};
 constexpr settings::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
 
 constexpr settings::Range<double> kSecondsPerRowRange{"seconds_per_row", 0.01, 86'400.0};
@@ -50,6 +51,7 @@ constexpr const char* kExitCodes =
 struct Targets {
     ServeOptions serve;
     RenderOptions render;
+    RecordOptions record;
     BenchOptions bench;
     LoadOptions load;
     InfoOptions info;
@@ -85,6 +87,14 @@ Result<std::filesystem::path> parsePicturePath(const std::string& text) {
     }
     const auto format = encode::imageFormatOf(path);
     return format ? Result<std::filesystem::path>(path) : format.error();
+}
+
+Result<std::filesystem::path> parseWebmPath(const std::string& text) {
+    const std::filesystem::path path(text);
+    if (path.extension() != ".webm") {
+        return Error{ErrorCode::kInvalidArgument, fmt::format("'{}' is not a .webm file", text)};
+    }
+    return path;
 }
 
 Result<std::filesystem::path> parseGlbPath(const std::string& text) {
@@ -266,6 +276,17 @@ void addComparison(CommandBuilder& command, RenderOptions& options) {
     command.group("Comparison");
 }
 
+void addPath(CommandBuilder& command, RenderOptions& options, const char* fps_help) {
+    command.number("--fps", options.fps, kFpsRange, fps_help);
+    command.text("--path", "FILE|turntable|flythrough", options.path, "",
+                 "Path that the camera follows, once: a JSON file of key frames, round what the "
+                 "view looks at, or through the scene's cameras");
+    command.number("--path-seconds", options.path_seconds, kPathSecondsRange,
+                   "Duration of a built-in path");
+    command.number("--warmup", options.warmup_count, kWarmupRange,
+                   "Frames drawn first and not counted");
+}
+
 void addOutputs(CommandBuilder& command, RenderOptions& options) {
     command.value("--out", "FILE", options.out, parsePicturePath, "",
                   "File for the last frame: .png, .jpg, or .exr or .pfm (linear, before exposure). "
@@ -278,16 +299,8 @@ void addOutputs(CommandBuilder& command, RenderOptions& options) {
     }
     auto* const frames =
         command.number("--frames", options.frame_count, kFramesRange, "Frames to draw");
-    command.number("--fps", options.fps, kFpsRange, "Frames of a second of the lights' clock");
-    command
-        .text("--path", "FILE|turntable|flythrough", options.path, "",
-              "Path that the camera follows, once: a JSON file of key frames, round what the view "
-              "looks at, or through the scene's cameras")
-        ->excludes(frames);
-    command.number("--path-seconds", options.path_seconds, kPathSecondsRange,
-                   "Duration of a built-in path");
-    command.number("--warmup", options.warmup_count, kWarmupRange,
-                   "Frames drawn first and not counted");
+    addPath(command, options, "Frames of a second of the lights' clock");
+    command.cli().get_option("--path")->excludes(frames);
     command.cli().add_flag("--keep-surfaces", options.keep_surfaces,
                            "Reuse depth and G-buffer of the previous frame while they would not "
                            "change, as serve does. Otherwise each frame is drawn in full");
@@ -296,9 +309,8 @@ void addOutputs(CommandBuilder& command, RenderOptions& options) {
     command.group("Picture and files");
 }
 
-void addRender(CLI::App& app, Targets& targets) {
-    auto& options = targets.render;
-    CommandBuilder command(app, "render", "Draw a picture of a scene, or time its frames");
+// What a picture shows, and on which device it is drawn.
+void addPicture(CommandBuilder& command, RenderOptions& options) {
     auto& settings = options.settings;
     addSceneOption(command, options.scene, options.scene);
     addSceneChoices(command, options.choices);
@@ -319,8 +331,34 @@ void addRender(CLI::App& app, Targets& targets) {
     command.value(
         "--grid-camera", "CAMERA", options.grid_camera, parseCamera, "the view's",
         "Camera whose cluster grid --debug-view cluster_wires shows, in the form of --camera");
+}
+
+void addRender(CLI::App& app, Targets& targets) {
+    auto& options = targets.render;
+    CommandBuilder command(app, "render", "Draw a picture of a scene, or time its frames");
+    addPicture(command, options);
     addOutputs(command, options);
     addComparison(command, options);
+    finish(command, options, LogLevel::kWarn, targets);
+}
+
+void addRecord(CLI::App& app, Targets& targets) {
+    auto& options = targets.record;
+    CommandBuilder command(app, "record",
+                           "Record a video of a scene: along a camera path, or from one view");
+    addPicture(command, options.pictures);
+    command.value("--out", "FILE.webm", options.out, parseWebmPath, "", "Video file (VP9 in WebM)")
+        ->required();
+    auto* const seconds =
+        command.number("--seconds", options.seconds, kPathSecondsRange, "Duration without a path");
+    addPath(command, options.pictures, "Frames of a second");
+    command.cli().get_option("--path")->excludes(seconds);
+    command.number("--crf", options.crf, kCrfRange,
+                   "Constant quality of every frame, the best first");
+    const auto& chroma =
+        *std::ranges::find(settings::kEncodingRows, "chroma", &settings::Setting::name);
+    addSetting(command, chroma, options.pictures.encoding);
+    command.group("Video");
     finish(command, options, LogLevel::kWarn, targets);
 }
 
@@ -547,6 +585,7 @@ Options parseOptions(int argc, const char* const* argv, const Environment& envir
     app.require_subcommand(0, 1); // that one is needed is checked below, in better words
     addServe(app, targets);
     addRender(app, targets);
+    addRecord(app, targets);
     addBench(app, targets);
     addLoad(app, targets);
     addInfo(app, targets);
@@ -561,12 +600,15 @@ Options parseOptions(int argc, const char* const* argv, const Environment& envir
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) {
-            throw CLI::RequiredError(
-                "a subcommand (serve, render, bench, load, info, diff, scene, bake or probe)");
+            throw CLI::RequiredError("a subcommand (serve, render, record, bench, load, info, "
+                                     "diff, scene, bake or probe)");
         }
         if (const auto* render = std::get_if<RenderOptions>(&targets.result.command)) {
             checkRender(*app.get_subcommand("render"), *render);
             checkGridCamera(*render);
+        }
+        if (const auto* record = std::get_if<RecordOptions>(&targets.result.command)) {
+            checkGridCamera(record->pictures);
         }
         if (const auto* bake = std::get_if<BakeOptions>(&targets.result.command)) {
             checkBake(*bake);

@@ -9,6 +9,7 @@
 #include "app/load_command.h"
 #include "app/log_setup.h"
 #include "app/probe_command.h"
+#include "app/record_command.h"
 #include "app/render_command.h"
 #include "app/scene_command.h"
 #include "app/serve_command.h"
@@ -27,6 +28,7 @@ struct Options {
     std::variant<PrintText,
                  ServeOptions,
                  RenderOptions,
+                 RecordOptions,
                  BenchOptions,
                  LoadOptions,
                  InfoOptions,

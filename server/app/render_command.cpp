@@ -1,20 +1,12 @@
 #include "app/render_command.h"
 
-#include "app/camera_path_option.h"
-#include "app/environment_file.h"
+#include "app/drawing.h"
 #include "app/output_file.h"
-#include "app/scene_camera.h"
-#include "app/scene_source.h"
 #include "app/timings_report.h"
 #include "encode/image_file.h"
-#include "motion/posed_scene.h"
-#include "render/view/renderer.h"
-#include "render/view/sample_mean.h"
-#include "report/frame_step.h"
 #include "session/compared_report.h"
 #include "session/comparison.h"
 #include "session/session_state.h"
-#include "settings/samples.h"
 #include "stream/compared_picture.h"
 
 #include <nlohmann/json.hpp>
@@ -22,12 +14,8 @@
 #include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -35,62 +23,6 @@
 namespace froxel::app {
 
 namespace {
-
-// That the picture's file is made of; none: pixels.
-Outputs outputsOf(const RenderOptions& options) {
-    return options.out.empty() || options.writesFolder() || !options.compare.empty()
-               ? Outputs{}
-               : encode::outputsOf(encode::imageFormatOf(options.out).value());
-}
-
-// A picture to be written.
-struct Still {
-    render::RenderedFrame frame;  // the last one
-    std::vector<std::byte> rgba8; // the mean of several; empty: there was one
-    LinearImage linear;           // where radiance is kept
-
-    [[nodiscard]] PixelView pixels() const {
-        PixelView view = frame.pixels.view();
-        if (!rgba8.empty()) {
-            view.data = rgba8.data();
-            view.stride_bytes = size_t{4} * view.width_px;
-        }
-        return view;
-    }
-};
-
-render::RenderedFrame draw(render::ViewRenderer& viewer, const render::FrameInputs& inputs) {
-    viewer.submit(inputs).value();
-    return std::move(viewer.collect()).value();
-}
-
-// In as many frames as it takes, each of which is timed.
-Still drawStill(render::ViewRenderer& viewer,
-                render::FrameInputs inputs,
-                std::vector<FrameStats>& timed) {
-    const settings::Camera camera = inputs.settings.camera;
-    const uint32_t count = settings::framesOf(inputs.settings);
-    Still still;
-    render::SampleMean mean;
-    for (uint32_t i = 0; i < count; ++i) {
-        if (count > 1) {
-            inputs.settings.camera = settings::sampled(camera, inputs.settings.size, i);
-        }
-        still.frame = draw(viewer, inputs);
-        timed.push_back(still.frame.stats);
-        if (count > 1) {
-            mean.add(still.frame.pixels.view());
-        }
-        if (!inputs.outputs.none()) {
-            addTo(still.linear, radianceOf(still.frame.pixels.view()),
-                  1.0F / static_cast<float>(count));
-        }
-    }
-    if (count > 1) {
-        still.rgba8 = mean.take();
-    }
-    return still;
-}
 
 void writePicture(const RenderOptions& options, const Still& still) {
     if (!outputsOf(options).none()) {
@@ -100,60 +32,10 @@ void writePicture(const RenderOptions& options, const Still& still) {
     }
 }
 
-TimedRun describeRun(const RenderOptions& options,
-                     const scene::Scene& scene,
-                     const gpu::DeviceTraits& device) {
-    return {.device = report::summarize(device),
-            .scene = options.scene,
-            .settings = beginningOf(options.scene, scene, options.settings, options.given,
-                                    options.look, device.is_cpu),
-            .time_s = options.time_s,
-            .step_s =
-                report::lightStepS(options.settings.lights) / report::kFrameStepS / options.fps,
-            .warmup_count = options.warmup_count,
-            .frames = {}};
-}
-
 // FOLDER/00001.png and so on.
 void writeFrame(const RenderOptions& options, const Still& still, uint32_t index) {
     const auto file = options.out / fmt::format("{:05}.png", index + 1);
     encode::writeImage(file, still.pixels(), options.encoding).value();
-}
-
-uint32_t frameCountOf(const RenderOptions& options, const path::CameraPath* path) {
-    return path == nullptr
-               ? options.frame_count
-               : std::max(1U, static_cast<uint32_t>(std::lround(path->seconds() * options.fps)));
-}
-
-// Draws every picture and fills run.frames; returns the last one. `path`: null: the camera rests.
-Still drawAll(const RenderOptions& options,
-              const motion::Playback& playback,
-              const path::CameraPath* path,
-              render::ViewRenderer& viewer,
-              TimedRun& run) {
-    render::FrameInputs inputs{.settings = run.settings,
-                               .time_s = run.time_s,
-                               .playing = playback.at(run.time_s),
-                               .keep_surfaces = options.keep_surfaces};
-    for (uint32_t i = 0; i < options.warmup_count; ++i) {
-        draw(viewer, inputs);
-    }
-    Still last;
-    const uint32_t frame_count = frameCountOf(options, path);
-    for (uint32_t i = 0; i < frame_count; ++i) {
-        inputs.time_s = run.time_s + i * run.step_s;
-        inputs.playing = playback.at(run.time_s + i / options.fps);
-        inputs.outputs = i + 1 == frame_count ? outputsOf(options) : Outputs{};
-        if (path != nullptr) {
-            inputs.settings.camera = path->at(i / options.fps);
-        }
-        last = drawStill(viewer, inputs, run.frames);
-        if (options.writesFolder()) {
-            writeFrame(options, last, i);
-        }
-    }
-    return last;
 }
 
 // What the colours of a debug view say.
@@ -171,88 +53,6 @@ std::string medianText(const nlohmann::ordered_json& time) {
     return time.is_null() ? "unknown"
                           : fmt::format("{:.1f} ms", time["median"].get<double>() / 1000);
 }
-
-// Of settings that have these otherwise.
-session::SessionState
-changed(const RenderOptions& options, const TimedRun& run, const session::SettingChanges& changes) {
-    session::SessionState state{run.settings, options.encoding, {}, {{}, 1, false}, {}};
-    for (const session::SettingChange& change : changes) {
-        change.setting->set(state, change.value);
-    }
-    return state;
-}
-
-bool usesDetailLevels(const RenderOptions& options, const TimedRun& run) {
-    return run.settings.geometry_error_px > 0 ||
-           std::ranges::any_of(options.compare, [&](const session::SettingChanges& side) {
-               return changed(options, run, side).settings.geometry_error_px > 0;
-           });
-}
-
-// The scene on the device, and the run that a picture of it begins with.
-class Drawing {
-  public:
-    explicit Drawing(const RenderOptions& options)
-        : scene_(readScene(options)), device_(options.device),
-          run_(startOf(options, scene_, device_.traits())),
-          playback_(scene_.motion, run_.settings.animation, 0),
-          renderer_(device_,
-                    posed(options),
-                    {},
-                    {.detail_levels = usesDetailLevels(options, run_),
-                     .geometry_cache = options.device.pipeline_cache.folder}) {
-        if (!options.path.empty()) {
-            path_ = readCameraPath(options.path, scene_, run_.settings.camera, options.path_seconds)
-                        .value();
-        }
-    }
-
-    [[nodiscard]] const TimedRun& start() const { return run_; }
-    // Draws every picture and fills run.frames; returns the last one.
-    [[nodiscard]] Still draw(const RenderOptions& options, TimedRun& run) {
-        render::ViewRenderer viewer(renderer_);
-        return drawAll(options, playback_, path_ ? &*path_ : nullptr, viewer, run);
-    }
-
-  private:
-    static scene::Scene readScene(const RenderOptions& options) {
-        auto scene =
-            loadScene(options.scene, options.choices, workOn, readingBy(options.sandbox)).value();
-        surround(scene, readSurroundings(options.environment_file));
-        logWarnings(scene);
-        return scene;
-    }
-    static TimedRun startOf(const RenderOptions& options,
-                            const scene::Scene& scene,
-                            const gpu::DeviceTraits& device) {
-        auto run = describeRun(options, scene, device);
-        run.settings.animation.number = scene.motion ? motion::usualAnimation(*scene.motion) : 0;
-        run.settings.material_variant = scene.material_variant;
-        return run;
-    }
-    // Cameras as they stand at that time.
-    const scene::Scene& posed(const RenderOptions& options) {
-        if (const auto playing = playback_.at(run_.time_s)) {
-            motion::placeCameras(scene_, playing->clips, playing->now_s);
-        }
-        settings::ViewSettings& settings = run_.settings;
-        settings.camera = findCamera(options.camera, scene_, settings.size).value();
-        auto& lens_shift = settings.camera.lens_shift;
-        lens_shift = options.lens_shift.value_or(lens_shift);
-        if (options.grid_camera) {
-            settings.debug.grid_camera =
-                findCamera(*options.grid_camera, scene_, settings.size).value();
-        }
-        return scene_;
-    }
-
-    scene::Scene scene_;
-    gpu::Device device_;
-    TimedRun run_;
-    const motion::Playback playback_;
-    render::Renderer renderer_;
-    std::optional<path::CameraPath> path_;
-};
 
 void printTimes(const TimedRun& run, const nlohmann::ordered_json& timings) {
     const auto& frame = timings["frame"];
@@ -273,7 +73,11 @@ void tellFiles(const RenderOptions& options) {
 
 void drawOne(const RenderOptions& options, Drawing& drawing) {
     TimedRun run = drawing.start();
-    const auto last = drawing.draw(options, run);
+    const auto last = drawing.draw(options, run, [&options](const Still& still, uint32_t index) {
+        if (options.writesFolder()) {
+            writeFrame(options, still, index);
+        }
+    });
     if (!options.out.empty() && !options.writesFolder()) {
         writePicture(options, last);
     }

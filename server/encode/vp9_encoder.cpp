@@ -18,6 +18,7 @@ constexpr size_t kPixelBytes = 4;
 constexpr uint32_t kMaxSidePx = 65'535; // of the format
 // Measured on two scenes: a third cheaper than 7 for 0.1 dB, and 9 loses 0.5 dB more.
 constexpr int kSpeed = 8;
+constexpr int kFileSpeed = 4; // of files, for which nobody waits
 // A frame is meant for the time since the one before it, but for no more than this: what follows a
 // pause would otherwise fill the link for as long as the pause was.
 constexpr Seconds kMaxInterval{0.1};
@@ -56,8 +57,10 @@ Result<void> check(const PixelView& pixels, const settings::Encoding& encoding) 
     return {};
 }
 
-vpx_codec_enc_cfg_t
-configure(const PixelView& pixels, const settings::Encoding& encoding, size_t thread_count) {
+vpx_codec_enc_cfg_t configure(const PixelView& pixels,
+                              const settings::Encoding& encoding,
+                              size_t thread_count,
+                              const std::optional<ConstantQuality>& quality) {
     vpx_codec_enc_cfg_t config{};
     const auto status = vpx_codec_enc_config_default(vpx_codec_vp9_cx(), &config, 0);
     FROXEL_ASSERT(status == VPX_CODEC_OK, "this libvpx has no VP9 encoder");
@@ -83,6 +86,10 @@ configure(const PixelView& pixels, const settings::Encoding& encoding, size_t th
     config.rc_buf_sz = kBufferMs;
     config.rc_buf_initial_sz = kBufferMs / 2;
     config.rc_buf_optimal_sz = kBufferMs / 2;
+    if (quality) {
+        config.rc_end_usage = VPX_Q;
+        config.rc_min_quantizer = 0;
+    }
     return config;
 }
 
@@ -103,8 +110,10 @@ struct Vp9Encoder::Stream {
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
 
-    [[nodiscard]] Result<void>
-    begin(const PixelView& pixels, const settings::Encoding& encoding, size_t thread_count);
+    [[nodiscard]] Result<void> begin(const PixelView& pixels,
+                                     const settings::Encoding& encoding,
+                                     size_t thread_count,
+                                     const std::optional<ConstantQuality>& quality);
     [[nodiscard]] bool fits(const PixelView& pixels, const settings::Encoding& encoding) const {
         return image.d_w == pixels.width_px && image.d_h == pixels.height_px &&
                chroma == encoding.chroma;
@@ -126,15 +135,17 @@ struct Vp9Encoder::Stream {
     vpx_image_t image{};
     tjhandle converter = nullptr;
     settings::Chroma chroma = settings::Chroma::k420;
+    unsigned long deadline = VPX_DL_REALTIME;
     TimePoint last_drawn_at{};
     int64_t next_us = 0; // media time; 0: nothing encoded yet
 };
 
 Result<void> Vp9Encoder::Stream::begin(const PixelView& pixels,
                                        const settings::Encoding& encoding,
-                                       size_t thread_count) {
+                                       size_t thread_count,
+                                       const std::optional<ConstantQuality>& quality) {
     chroma = encoding.chroma;
-    config = configure(pixels, encoding, thread_count);
+    config = configure(pixels, encoding, thread_count, quality);
     if (vpx_codec_enc_init(&codec, vpx_codec_vp9_cx(), &config, 0) != VPX_CODEC_OK) {
         return failure("cannot start");
     }
@@ -145,15 +156,19 @@ Result<void> Vp9Encoder::Stream::begin(const PixelView& pixels,
            (pixels.width_px >> static_cast<unsigned>(tile_columns + 1)) >= kTileMinPx) {
         ++tile_columns;
     }
+    const bool set_for_use =
+        quality ? vpx_codec_control(&codec, VP8E_SET_CPUUSED, kFileSpeed) == VPX_CODEC_OK &&
+                      vpx_codec_control(&codec, VP8E_SET_CQ_LEVEL, quality->level) == VPX_CODEC_OK
+                : vpx_codec_control(&codec, VP8E_SET_CPUUSED, kSpeed) == VPX_CODEC_OK &&
+                      vpx_codec_control(&codec, VP9E_SET_AQ_MODE, 3U) == VPX_CODEC_OK &&
+                      vpx_codec_control(&codec, VP8E_SET_STATIC_THRESHOLD, 1U) == VPX_CODEC_OK &&
+                      vpx_codec_control(&codec, VP8E_SET_MAX_INTRA_BITRATE_PCT, kKeyFramePercent) ==
+                          VPX_CODEC_OK;
     const bool set =
-        vpx_codec_control(&codec, VP8E_SET_CPUUSED, kSpeed) == VPX_CODEC_OK &&
-        vpx_codec_control(&codec, VP9E_SET_AQ_MODE, 3U) == VPX_CODEC_OK &&
+        set_for_use &&
         vpx_codec_control(&codec, VP9E_SET_ROW_MT, config.g_threads > 1 ? 1U : 0U) ==
             VPX_CODEC_OK &&
         vpx_codec_control(&codec, VP9E_SET_TILE_COLUMNS, tile_columns) == VPX_CODEC_OK &&
-        vpx_codec_control(&codec, VP8E_SET_STATIC_THRESHOLD, 1U) == VPX_CODEC_OK &&
-        vpx_codec_control(&codec, VP8E_SET_MAX_INTRA_BITRATE_PCT, kKeyFramePercent) ==
-            VPX_CODEC_OK &&
         vpx_codec_control(&codec, VP9E_SET_COLOR_SPACE, static_cast<int>(VPX_CS_BT_601)) ==
             VPX_CODEC_OK &&
         vpx_codec_control(&codec, VP9E_SET_COLOR_RANGE, static_cast<int>(VPX_CR_FULL_RANGE)) ==
@@ -161,6 +176,7 @@ Result<void> Vp9Encoder::Stream::begin(const PixelView& pixels,
     if (!set) {
         return failure("a setting was refused");
     }
+    deadline = quality ? VPX_DL_GOOD_QUALITY : VPX_DL_REALTIME;
     converter = tjInitCompress();
     if (converter == nullptr || vpx_img_alloc(&image, full ? VPX_IMG_FMT_I444 : VPX_IMG_FMT_I420,
                                               pixels.width_px, pixels.height_px, 32) == nullptr) {
@@ -211,7 +227,7 @@ Vp9Encoder::Stream::compress(const vpx_image_t& planes, bool key, TimePoint draw
     last_drawn_at = drawn_at;
     next_us += interval_us;
     if (vpx_codec_encode(&codec, &planes, next_us, static_cast<unsigned long>(interval_us),
-                         key ? VPX_EFLAG_FORCE_KF : 0, VPX_DL_REALTIME) != VPX_CODEC_OK) {
+                         key ? VPX_EFLAG_FORCE_KF : 0, deadline) != VPX_CODEC_OK) {
         return failure("a picture was refused");
     }
     EncodedPart frame{{}, false};
@@ -231,6 +247,9 @@ Vp9Encoder::Stream::compress(const vpx_image_t& planes, bool key, TimePoint draw
 
 Vp9Encoder::Vp9Encoder(size_t thread_count) : thread_count_(std::max<size_t>(thread_count, 1)) {}
 
+Vp9Encoder::Vp9Encoder(size_t thread_count, ConstantQuality quality)
+    : thread_count_(std::max<size_t>(thread_count, 1)), quality_(quality) {}
+
 Vp9Encoder::~Vp9Encoder() = default;
 
 Result<EncodedPart> Vp9Encoder::encode(const PixelView& pixels,
@@ -244,7 +263,8 @@ Result<EncodedPart> Vp9Encoder::encode(const PixelView& pixels,
     const auto frame = [&]() -> Result<EncodedPart> {
         if (!stream_ || !stream_->fits(pixels, encoding)) {
             stream_ = std::make_unique<Stream>();
-            if (const auto begun = stream_->begin(pixels, encoding, thread_count_); !begun) {
+            if (const auto begun = stream_->begin(pixels, encoding, thread_count_, quality_);
+                !begun) {
                 return begun.error();
             }
         }

@@ -7,14 +7,23 @@
 #include "encode/encoder.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace froxel::encode {
+
+// Of a file rather than a stream: every frame has the same quality, and as many bits as that takes.
+struct ConstantQuality {
+    uint32_t level = 0; // 0 to 63, the best first ("crf" of other programs)
+};
 
 class Vp9Encoder final : public Encoder {
   public:
     // Threads that libvpx may use within a frame; it takes fewer for small pictures.
     explicit Vp9Encoder(size_t thread_count);
+    // encode() takes no rate then, and some ten times as long.
+    Vp9Encoder(size_t thread_count, ConstantQuality quality);
     ~Vp9Encoder() override;
 
     // The first frame is a key frame, and so is one of another size or chroma than the one before
@@ -32,6 +41,7 @@ class Vp9Encoder final : public Encoder {
     struct Stream;
 
     const size_t thread_count_;
+    const std::optional<ConstantQuality> quality_;
     std::unique_ptr<Stream> stream_; // none: the next frame begins one
 };
 

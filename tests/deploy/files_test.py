@@ -590,7 +590,7 @@ PACKAGES = {
     "Protobuf": "libprotobuf-dev", "Python3": "python3", "Threads": None, "TinyGLTF": "libtinygltf-dev",
     "Vulkan": "libvulkan-dev", "ZLIB": None, "benchmark": "libbenchmark-dev", "draco": "libdraco-dev",
     "glm": "libglm-dev", "glslangValidator": "glslang-tools", "libturbojpeg": "libturbojpeg0-dev",
-    "lib3mf": "lib3mf-dev", "tinyobjloader": "libtinyobjloader-dev", "libseccomp": "libseccomp-dev", "libwebp": "libwebp-dev", "libzstd": "libzstd-dev",
+    "lib3mf": "lib3mf-dev", "tinyobjloader": "libtinyobjloader-dev", "libmatroska": "libmatroska-dev", "libseccomp": "libseccomp-dev", "libwebp": "libwebp-dev", "libzstd": "libzstd-dev",
     "meshoptimizer": "libmeshoptimizer-dev", "nlohmann_json": "nlohmann-json3-dev",
     "prometheus-cpp-core": "prometheus-cpp-dev", "spdlog": "libspdlog-dev", "spirv-val": "spirv-tools", "stb": "libstb-dev",
     "tomlplusplus": "libtomlplusplus-dev", "vpx": "libvpx-dev", "wasm2c": "wabt",

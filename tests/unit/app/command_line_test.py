@@ -197,6 +197,27 @@ class CommandLine(unittest.TestCase):
         self.assert_refused(run, 2, "path.json: keys[0].target is where the eye is")
         self.assert_refused(froxel("render", *SMALL, "--out", f"{out}/"), 2, "is a folder, which needs --path")
 
+    def test_record_writes_a_video(self):
+        out = self.folder / "film.webm"
+        out.write_text("before")
+        run = froxel("record", *SMALL, "--seconds", "0.5", "--fps", "10", "--out", out, "--path", "nowhere.json")
+        self.assert_refused(run, 2, "--seconds excludes --path")
+        run = froxel("record", *SMALL, "--path", "nowhere.json", "--out", out)
+        self.assert_refused(run, 1, "cannot read 'nowhere.json'")
+        self.assertEqual(out.read_text(), "before")
+        run = froxel("record", *SMALL, "--seconds", "0.5", "--fps", "10", "--out", out)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertRegex(run.stdout, r"recorded 1 of 5 frames\n(?s:.*)wrote .*film.webm: 5 frames of 64x36, 0.5 s, 0.0 MB\n$")
+        video = out.read_bytes()
+        self.assertEqual(video[:4], b"\x1a\x45\xdf\xa3")
+        self.assertIn(b"webm", video[:64])
+        self.assertIn(b"V_VP9", video[:512])
+        self.assertEqual([file.name for file in self.folder.iterdir() if "film" in file.name], ["film.webm"])
+        for wrong, words in ((["--out", "film.mp4"], "'film.mp4' is not a .webm file"), ([], "--out is required"),
+                             (["--out", out, "--crf", "64"], "64"),
+                             (["--out", out, "--seconds", "3600", "--fps", "1000"], "a recording of 3600000 frames")):
+            self.assert_refused(froxel("record", *SMALL, *wrong), 2, words)
+
     def test_mean16_is_the_mean_of_16_frames(self):
         out = self.folder / "a.png"
         run = froxel("render", *SMALL, "--out", out, "--antialiasing", "mean16")

@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 #include <turbojpeg.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <malloc.h>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vpx/vp8dx.h>
 #include <vpx/vpx_decoder.h>
 
@@ -247,6 +249,42 @@ TEST(Vp9Encoder, AfterAPause_AFrameIsThatOfATenthOfASecond) {
     for (const Seconds pause : {Seconds(1), Seconds(5), Seconds(3600)}) {
         EXPECT_EQ(after(pause), of_a_tenth) << pause.count();
     }
+}
+
+// Bytes of twelve frames, and the worst of their PSNR.
+std::pair<size_t, double> recorded(uint32_t level) {
+    Vp9Encoder encoder(2, ConstantQuality{level});
+    Decoder decoder;
+    size_t bytes = 0;
+    double worst = 1e9;
+    for (uint32_t i = 0; i < 12; ++i) {
+        const Picture picture = moving(161, 99, i);
+        // No rate counts: 1 kbit/s would leave nothing of it.
+        const auto frame = encoder
+                               .encode(picture.view(), encoding(100, settings::Chroma::k444),
+                                       i % 5 == 0, kStart + i * kFrameTime)
+                               .value();
+        EXPECT_EQ(frame.key, i % 5 == 0) << i;
+        bytes += frame.bytes.size();
+        const vpx_image_t* image = decoder.decode(frame);
+        EXPECT_NE(image, nullptr) << i;
+        if (image != nullptr) {
+            worst = std::min(worst, psnr(picture, *image));
+        }
+    }
+    return {bytes, worst};
+}
+
+TEST(Vp9Encoder, ConstantQuality_HoldsForEveryFrame_WhateverTheBitsItTakes) {
+    const auto [best_bytes, best] = recorded(0);
+    const auto [usual_bytes, usual] = recorded(20);
+    const auto [worst_bytes, worst] = recorded(63);
+    EXPECT_GT(best, 40);
+    EXPECT_GT(usual, 33);
+    EXPECT_GT(best, usual + 3);
+    EXPECT_GT(usual, worst + 3);
+    EXPECT_GT(best_bytes, usual_bytes);
+    EXPECT_GT(usual_bytes, worst_bytes);
 }
 
 TEST(Vp9Encoder, WhatCannotBeEncoded_IsRefusedAndStartsAnew) {
