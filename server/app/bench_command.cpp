@@ -1,5 +1,6 @@
 #include "app/bench_command.h"
 
+#include "app/camera_path_option.h"
 #include "app/environment_file.h"
 #include "app/output_file.h"
 #include "app/report_page.h"
@@ -50,7 +51,7 @@ class StopFlag {
     std::jthread thread_; // last: joins before the signal goes
 };
 
-std::vector<bench::View> viewsOf(const BenchOptions& options, const scene::Scene& scene) {
+std::vector<bench::View> viewsOfCameras(const BenchOptions& options, const scene::Scene& scene) {
     auto names = options.cameras;
     for (const auto& camera : scene.cameras) {
         const auto parsed =
@@ -71,6 +72,42 @@ std::vector<bench::View> viewsOf(const BenchOptions& options, const scene::Scene
                          static_cast<double>(views.size()) * kViewStepS});
     }
     return views;
+}
+
+// By the name that --camera takes, which keeps cameras upright.
+bench::View viewAlong(const path::CameraPath& path, double at_s) {
+    const settings::Camera camera = path.at(at_s);
+    const std::string name = cameraText(camera);
+    const auto named = std::get<settings::Camera>(parseCamera(name).value());
+    constexpr double kRolled = 1e-6;
+    if (glm::distance(named.world_from_view[1], camera.world_from_view[1]) > kRolled) {
+        throw StartupError(
+            {ErrorCode::kInvalidArgument,
+             fmt::format(
+                 "--path: the camera is not upright at {:.3g} s; bench needs an upright one",
+                 at_s)});
+    }
+    return {name, named, at_s};
+}
+
+// At even times, and at both ends unless it is a loop, whose end is its beginning.
+std::vector<bench::View> viewsAlong(const path::CameraPath& path, uint32_t stops) {
+    const uint32_t steps = path.keys().loop ? stops : std::max(1U, stops - 1);
+    std::vector<bench::View> views;
+    for (uint32_t i = 0; i < stops; ++i) {
+        views.push_back(viewAlong(path, path.seconds() * i / steps));
+    }
+    return views;
+}
+
+std::vector<bench::View> viewsOf(const BenchOptions& options, const scene::Scene& scene) {
+    if (options.path.empty()) {
+        return viewsOfCameras(options, scene);
+    }
+    constexpr settings::Size kUsual; // sweeps draw pictures of its shape
+    const auto first = findCamera({}, scene, kUsual).value();
+    return viewsAlong(readCameraPath(options.path, scene, first, options.path_seconds).value(),
+                      options.path_stops);
 }
 
 std::string nowUtc() {

@@ -22,6 +22,9 @@ struct BenchOptions {
     settings::ViewSettings settings;  // what no sweep varies, but for the camera
     std::filesystem::path light_set;  // that settings.lights.placed was read from; empty: none
     std::vector<std::string> cameras; // none: the scene's first three
+    std::string path;                 // instead of cameras, as --path has it; empty: none
+    double path_seconds = 10;         // of a built-in path
+    uint32_t path_stops = 8;          // at even times of the path
     double seconds_per_row = 10;
     settings::Size error_size{640, 360};
     std::optional<double> r1_pairs_limit; // none: by the device's kind

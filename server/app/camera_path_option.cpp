@@ -10,6 +10,18 @@
 
 namespace froxel::app {
 
+Result<path::CameraPath> readPathFile(const std::string& file) {
+    const auto text = readText(file);
+    if (!text) {
+        return text.error();
+    }
+    auto keys = path::parsePath(*text);
+    if (!keys) {
+        return Error{keys.error().code, printable(file, 400) + ": " + keys.error().message};
+    }
+    return path::CameraPath(std::move(*keys));
+}
+
 Result<path::CameraPath> readCameraPath(const std::string& name,
                                         const scene::Scene& scene,
                                         const settings::Camera& first,
@@ -19,15 +31,7 @@ Result<path::CameraPath> readCameraPath(const std::string& name,
         const auto which = static_cast<path::BuiltIn>(built_in - path::kBuiltInNames.begin());
         return path::CameraPath(path::builtInPath(which, scene, first, seconds));
     }
-    const auto text = readText(name);
-    if (!text) {
-        return text.error();
-    }
-    auto keys = path::parsePath(*text);
-    if (!keys) {
-        return Error{keys.error().code, printable(name, 400) + ": " + keys.error().message};
-    }
-    return path::CameraPath(std::move(*keys));
+    return readPathFile(name);
 }
 
 } // namespace froxel::app

@@ -32,19 +32,22 @@ constexpr const char* kFooter =
     "frame; with --stages each viewer measures from its own first frame on. Viewers acknowledge "
     "frames as the page does, at the next refresh of a 60 Hz display. "
     "A FILE.jsonl has a ClientMessage in the protocol's JSON on each line and, optionally, "
-    "\"at_ms\" since the start.";
+    "\"at_ms\" since the start. A FILE.json is a camera path, which viewers follow from different "
+    "points of it on, 60 commands a second.";
 
-// "orbit", "idle:3", "drag.jsonl:2".
+// "orbit", "idle:3", "drag.jsonl:2", "path.json".
 Result<std::string> parseScript(const std::string& text) {
     const ScriptName script = scriptNameOf(text);
     if (script.name == "orbit" || script.name == "idle" || script.name == "storm" ||
-        script.name == "scenes" || std::filesystem::path(script.name).extension() == ".jsonl") {
+        script.name == "scenes" || isPathFile(script.name) ||
+        std::filesystem::path(script.name).extension() == ".jsonl") {
         return text;
     }
-    return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("'{}' is not orbit, idle, storm, scenes or a .jsonl file, with or "
-                             "without :SHARE behind it",
-                             printable(text, 200))};
+    return Error{
+        ErrorCode::kInvalidArgument,
+        fmt::format("'{}' is not orbit, idle, storm, scenes, a .json or a .jsonl file, with "
+                    "or without :SHARE behind it",
+                    printable(text, 200))};
 }
 
 // "2" or "1-5".
@@ -97,8 +100,9 @@ void addViewers(CommandBuilder& command, LoadOptions& options) {
         .text("--script", "NAME[:SHARE]", options.scripts, "orbit",
               "Behaviour of the viewers. orbit: the camera circles, 60 commands a second; "
               "idle: nothing; storm: random values of every setting, 200 commands a second; "
-              "scenes: another scene of the server every 2 seconds; or a FILE.jsonl. Repeat it for "
-              "a mix: --script orbit:3 --script idle:1 gives three of four viewers the orbit")
+              "scenes: another scene of the server every 2 seconds. Or a file: "
+              "FILE.jsonl with commands, FILE.json with a camera path. Repeat it for a mix: "
+              "--script orbit:3 --script idle:1 gives three of four viewers the orbit")
         ->allow_extra_args(false)
         ->check([](const std::string& text) {
             const auto script = parseScript(text);
@@ -192,6 +196,10 @@ void addOutputs(CommandBuilder& command, LoadOptions& options) {
 }
 
 } // namespace
+
+bool isPathFile(const std::string& name) {
+    return std::filesystem::path(name).extension() == ".json";
+}
 
 ScriptName scriptNameOf(const std::string& text) {
     const size_t colon = text.rfind(':');

@@ -15,6 +15,8 @@ struct ScriptName {
     uint32_t share = 1;
 };
 [[nodiscard]] ScriptName scriptNameOf(const std::string& text);
+// Whether a script of that name is a camera path.
+[[nodiscard]] bool isPathFile(const std::string& name);
 
 // `options` outlives the parse.
 void addLoadArguments(CommandBuilder& command, LoadOptions& options);

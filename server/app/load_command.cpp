@@ -1,5 +1,6 @@
 #include "app/load_command.h"
 
+#include "app/camera_path_option.h"
 #include "app/exit_codes.h"
 #include "app/load_arguments.h"
 #include "app/load_capacity.h"
@@ -67,6 +68,9 @@ load::ScriptChoice scriptOf(const LoadOptions& options, const std::string& name)
     }
     if (name == "storm") {
         return load::Storm{};
+    }
+    if (isPathFile(name)) {
+        return std::make_shared<const path::CameraPath>(readPathFile(name).value());
     }
     return load::readScriptFile(name).value();
 }

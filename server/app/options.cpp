@@ -34,6 +34,7 @@ constexpr settings::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
 constexpr settings::Range<double> kFlipRange{"max_flip", 0, 1};
 constexpr settings::Range<double> kFpsRange{"fps", 1, 1000};
 constexpr settings::Range<double> kPathSecondsRange{"seconds", 0.1, 3600};
+constexpr settings::Range<uint32_t> kPathStopsRange{"path_stops", 1, 1000};
 constexpr settings::Range<uint32_t> kCrfRange{"crf", 0, 63};
 constexpr settings::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
 
@@ -276,13 +277,16 @@ void addComparison(CommandBuilder& command, RenderOptions& options) {
     command.group("Comparison");
 }
 
-void addPath(CommandBuilder& command, RenderOptions& options, const char* fps_help) {
-    command.number("--fps", options.fps, kFpsRange, fps_help);
-    command.text("--path", "FILE|turntable|flythrough", options.path, "",
-                 "Path that the camera follows, once: a JSON file of key frames, round what the "
-                 "view looks at, or through the scene's cameras");
-    command.number("--path-seconds", options.path_seconds, kPathSecondsRange,
-                   "Duration of a built-in path");
+CLI::Option* addPath(CommandBuilder& command, std::string& path, double& seconds) {
+    auto* const option =
+        command.text("--path", "FILE|turntable|flythrough", path, "",
+                     "Path that the camera follows, once: a JSON file of key frames, round what "
+                     "the view looks at, or through the scene's cameras");
+    command.number("--path-seconds", seconds, kPathSecondsRange, "Duration of a built-in path");
+    return option;
+}
+
+void addWarmup(CommandBuilder& command, RenderOptions& options) {
     command.number("--warmup", options.warmup_count, kWarmupRange,
                    "Frames drawn first and not counted");
 }
@@ -299,8 +303,9 @@ void addOutputs(CommandBuilder& command, RenderOptions& options) {
     }
     auto* const frames =
         command.number("--frames", options.frame_count, kFramesRange, "Frames to draw");
-    addPath(command, options, "Frames of a second of the lights' clock");
-    command.cli().get_option("--path")->excludes(frames);
+    command.number("--fps", options.fps, kFpsRange, "Frames of a second of the lights' clock");
+    addPath(command, options.path, options.path_seconds)->excludes(frames);
+    addWarmup(command, options);
     command.cli().add_flag("--keep-surfaces", options.keep_surfaces,
                            "Reuse depth and G-buffer of the previous frame while they would not "
                            "change, as serve does. Otherwise each frame is drawn in full");
@@ -351,8 +356,9 @@ void addRecord(CLI::App& app, Targets& targets) {
         ->required();
     auto* const seconds =
         command.number("--seconds", options.seconds, kPathSecondsRange, "Duration without a path");
-    addPath(command, options.pictures, "Frames of a second");
-    command.cli().get_option("--path")->excludes(seconds);
+    command.number("--fps", options.pictures.fps, kFpsRange, "Frames of a second");
+    addPath(command, options.pictures.path, options.pictures.path_seconds)->excludes(seconds);
+    addWarmup(command, options.pictures);
     command.number("--crf", options.crf, kCrfRange,
                    "Constant quality of every frame, the best first");
     const auto& chroma =
@@ -401,15 +407,17 @@ void addBench(CLI::App& app, Targets& targets) {
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
-    command
-        .text("--camera", "CAMERA", options.cameras, "the scene's first three",
-              "View of the camera path, in the form of render's --camera; repeatable, the first "
-              "one is timed")
-        ->allow_extra_args(false)
-        ->check([](const std::string& text) {
-            const auto camera = parseCamera(text);
-            return camera ? std::string() : camera.error().message;
-        });
+    auto* const cameras =
+        command.text("--camera", "CAMERA", options.cameras, "the scene's first three",
+                     "View to measure, in the form of render's --camera; repeatable, the first "
+                     "one is timed");
+    cameras->allow_extra_args(false)->check([](const std::string& text) {
+        const auto camera = parseCamera(text);
+        return camera ? std::string() : camera.error().message;
+    });
+    addPath(command, options.path, options.path_seconds)->excludes(cameras);
+    command.number("--path-stops", options.path_stops, kPathStopsRange,
+                   "Views along the path, at even times, in the place of --camera");
     command.value("--size", "WxH", options.settings.size, parseSize, textOf(options.settings.size),
                   sizeHelp("Picture"));
     addLights(command, options.settings, options.light_set);

@@ -7,6 +7,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace froxel::app {
 
@@ -119,6 +120,18 @@ scene::FirstView firstViewOf(const scene::Scene& scene) {
 Result<settings::Camera>
 findCamera(const CameraChoice& choice, const scene::Scene& scene, const settings::Size& size) {
     return std::visit(Finder{scene, size}, choice);
+}
+
+std::string cameraText(const settings::Camera& camera) {
+    // A billionth of a millimetre is what sines leave of 0.
+    const auto number = [](double value) {
+        return fmt::format("{:.12g}", std::abs(value) < 1e-12 ? 0.0 : value);
+    };
+    const auto place = [&number](const glm::dvec3& at) {
+        return number(at.x) + "," + number(at.y) + "," + number(at.z);
+    };
+    return place(camera.eye_world) + ";" + place(camera.target_world()) + ";" +
+           number(glm::degrees(camera.yfov_rad));
 }
 
 } // namespace froxel::app

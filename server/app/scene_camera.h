@@ -5,6 +5,8 @@
 #include "scene/first_view.h"
 #include "scene/scene.h"
 
+#include <string>
+
 namespace froxel::app {
 
 // scene::firstViewOf() of the pose that plays at first.
@@ -14,5 +16,8 @@ namespace froxel::app {
 // scene has.
 [[nodiscard]] Result<settings::Camera>
 findCamera(const CameraChoice& choice, const scene::Scene& scene, const settings::Size& size);
+
+// What parseCamera() reads as a camera there; it keeps +Y up.
+[[nodiscard]] std::string cameraText(const settings::Camera& camera);
 
 } // namespace froxel::app

@@ -1,6 +1,7 @@
 #include "load/script.h"
 
 #include "load/orbit_script.h"
+#include "load/path_script.h"
 #include "load/scene_script.h"
 #include "load/storm_script.h"
 
@@ -81,6 +82,9 @@ struct PassLength {
     std::optional<Seconds> operator()(Orbit /*choice*/) const { return kOrbitPeriod; }
     std::optional<Seconds> operator()(Storm /*choice*/) const { return kStormPass; }
     std::optional<Seconds> operator()(const Scenes& /*choice*/) const { return kSceneStay; }
+    std::optional<Seconds> operator()(const Path& path) const {
+        return path->seconds() > 0 ? std::optional(Seconds(path->seconds())) : std::nullopt;
+    }
     std::optional<Seconds> operator()(const Recording& /*choice*/) const { return std::nullopt; }
 };
 
@@ -99,6 +103,9 @@ struct Maker {
     }
     std::unique_ptr<Script> operator()(const Scenes& scenes) const {
         return std::make_unique<SceneScript>(scenes.ids, welcome.scene().id(), viewer);
+    }
+    std::unique_ptr<Script> operator()(const Path& path) const {
+        return std::make_unique<PathScript>(path, viewer);
     }
     std::unique_ptr<Script> operator()(const Recording& steps) const {
         return std::make_unique<RecordedScript>(steps);
@@ -121,8 +128,10 @@ std::unique_ptr<Script> makeScript(const ScriptChoice& choice,
 }
 
 bool isRestless(const ScriptChoice& choice, const std::optional<ThinkTime>& think) {
+    const auto* path = std::get_if<Path>(&choice);
     return !think &&
-           (std::holds_alternative<Orbit>(choice) || std::holds_alternative<Storm>(choice));
+           (std::holds_alternative<Orbit>(choice) || std::holds_alternative<Storm>(choice) ||
+            (path != nullptr && (*path)->seconds() > 0));
 }
 
 } // namespace froxel::load

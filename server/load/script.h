@@ -4,6 +4,7 @@
 #include "core/clock.h"
 #include "froxel/v1/client.pb.h"
 #include "froxel/v1/server.pb.h"
+#include "path/camera_path.h"
 
 #include <cstdint>
 #include <memory>
@@ -40,12 +41,15 @@ struct Storm {};
 struct Scenes {
     std::vector<std::string> ids; // at least one
 };
+// The camera along a path, from its end to its beginning at once unless it is a loop, kPathRate
+// commands a second. A path that takes no time is one command.
+using Path = std::shared_ptr<const path::CameraPath>;
 // From a file; played once.
 using Recording = std::shared_ptr<const std::vector<Step>>;
-using ScriptChoice = std::variant<Orbit, Idle, Storm, Scenes, Recording>;
+using ScriptChoice = std::variant<Orbit, Idle, Storm, Scenes, Path, Recording>;
 
 // How long viewers rest after each pass of their script: a circle of Orbit, kStormPass, one scene,
-// a recording. Evenly spread between the two, the same in every run.
+// a path, a recording. Evenly spread between the two, the same in every run.
 struct ThinkTime {
     Seconds least{0};
     Seconds most{0};
@@ -53,6 +57,7 @@ struct ThinkTime {
 
 inline constexpr Seconds kOrbitPeriod{10};
 inline constexpr uint32_t kOrbitRate = 60;
+inline constexpr uint32_t kPathRate = 60;
 inline constexpr uint32_t kStormRate = 200;
 inline constexpr Seconds kStormPass{10};
 inline constexpr Seconds kSceneStay{2};

@@ -112,6 +112,22 @@ class Bench(unittest.TestCase):
         path.write_text(json.dumps(slower))
         self.assertEqual(froxel("bench", "--compare", self.out, path).returncode, 1)
 
+    def test_views_are_taken_along_a_path(self):
+        path, out = self.folder / "path.json", self.folder / "along.json"
+        keys = [{"eye": [x, 2, 1], "target": [x, 2, 0]} for x in (0, 4)]
+        path.write_text(json.dumps({"seconds": 4, "keys": keys}))
+        few = ["--device", "cpu", "--preset", "view", "--size", "64x36", "--lights", "20", "--seconds-per-row", "0.01",
+               "--error-size", "16x16", "--r1-pairs", "0", "--r2-pairs", "0", "--path", path]
+        run = froxel("bench", *few, "--path-stops", "3", "--out", out)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        views = json.loads(out.read_text())["views"]
+        self.assertEqual([view["name"] for view in views], [f"{x},2,1;{x},2,0;45" for x in (0, 2, 4)])
+        self.assertEqual([view["time_s"] for view in views], [0, 2, 4])
+        path.write_text(json.dumps({"keys": [{**keys[0], "up": [1, 1, 0]}]}))
+        run = froxel("bench", *few, "--out", out)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("--path: the camera is not upright at 0 s", run.stderr)
+
     def test_usage_errors_are_2_before_anything_is_drawn(self):
         for arguments in ([], ["--preset", "nothing", "--out", "a.json"],
                           ["--compare", self.out, self.page],

@@ -244,7 +244,8 @@ INSTANTIATE_TEST_SUITE_P(
     BadCommandLine,
     testing::Values(
         Refusal{{},
-                {"serve, render, record, bench, load, info, diff, scene, bake or probe", "froxel --help"}},
+                {"serve, render, record, bench, load, info, diff, scene, bake or probe",
+                 "froxel --help"}},
         Refusal{{"draw"}, {"froxel has no command draw (see froxel --help)"}},
         Refusal{{"srve"}, {"froxel has no command srve; did you mean serve?"}},
         Refusal{{"--vresion"}, {"froxel has no option --vresion; did you mean --version?"}},

@@ -73,6 +73,45 @@ TEST(Scripts, Orbit_OfTwoViewers_LooksFromTwoSides) {
         0.1);
 }
 
+Path walk(bool loop = false) {
+    const auto key = [](double at_s, double x) {
+        return path::Key{at_s, settings::lookAt({x, 1, 0}, {x, 1, -5}, {0, 1, 0})};
+    };
+    return std::make_shared<const path::CameraPath>(
+        path::PathKeys{.keys = {key(0, 0), key(2, 4)}, .seconds = loop ? 4.0 : 2.0, .loop = loop});
+}
+
+TEST(Scripts, Path_IsFollowedAgainAndAgain) {
+    const auto script = makeScript(walk(), welcome(), 1);
+    for (int i = 0; i < 300; ++i) {
+        const auto step = script->next();
+        ASSERT_TRUE(step);
+        EXPECT_NEAR(Seconds(step->at).count(), i / 60.0, 1e-6);
+        const auto& camera = step->message.set_camera();
+        EXPECT_NEAR(camera.eye().x(), 2 * std::fmod(i / 60.0, 2.0), 1e-6) << i;
+        EXPECT_NEAR(camera.target().z(), -5, 1e-9);
+        EXPECT_NEAR(camera.fov_deg(), 45, 1e-9);
+    }
+}
+
+TEST(Scripts, Path_OfTwoViewers_BeginsAtTwoPoints) {
+    const auto first = makeScript(walk(true), welcome(), 1)->next();
+    const auto second = makeScript(walk(true), welcome(), 2)->next();
+    EXPECT_GT(
+        std::abs(first->message.set_camera().eye().x() - second->message.set_camera().eye().x()),
+        1);
+}
+
+TEST(Scripts, PathThatTakesNoTime_IsOneCommand) {
+    const Path one = std::make_shared<const path::CameraPath>(
+        path::PathKeys{.keys = {{0, settings::lookAt({1, 2, 3}, {0, 0, 0}, {0, 1, 0})}}});
+    const auto script = makeScript(one, welcome(), 3);
+    EXPECT_TRUE(script->next());
+    EXPECT_FALSE(script->next());
+    EXPECT_FALSE(isRestless(one, {}));
+    EXPECT_TRUE(isRestless(walk(), {}));
+}
+
 TEST(Scripts, Orbit_WithTimeToThink_RestsAfterEachCircle) {
     const auto plain = makeScript(Orbit{}, welcome(), 1);
     const auto thinking = makeScript(Orbit{}, welcome(), 1, ThinkTime{2s, 4s});
