@@ -2,6 +2,7 @@
 
 import { readFile } from 'node:fs/promises';
 
+import { BufferSource, Input, WEBM } from 'mediabunny';
 import { expect, it } from 'vitest';
 
 import { usePages } from './pages';
@@ -164,4 +165,44 @@ it('OrthographicView_HasNoPath_AndSaysSo', async () => {
   await until('the reason', async () =>
     (await viewer.page.locator('#path-said').textContent())?.includes('needs a perspective camera'),
   );
+});
+
+it('Path_IsRecordedAsAVideo_OfEveryFrame', async () => {
+  const viewer = await pages.open(kTwo);
+  const { page } = viewer;
+  await page.locator('#path-record').click();
+  await page.locator('#recording-size').selectOption({ index: 0 });
+  await page.locator('#recording-rate').selectOption('15');
+  const coming = page.waitForEvent('download', { timeout: 600_000 });
+  await page.locator('#recording-start').click();
+  const saved = await coming;
+  expect(saved.suggestedFilename()).toMatch(/^froxel-.*\.webm$/);
+  const input = new Input({ source: new BufferSource(await readFile(await saved.path())), formats: [WEBM] });
+  const track = await input.getPrimaryVideoTrack();
+  expect(await track?.getCodec()).toBe('vp9');
+  expect([await track?.getDisplayWidth(), await track?.getDisplayHeight()]).toEqual([320, 180]);
+  expect(await track?.computeDuration()).toBeCloseTo(2, 2);
+  const stats = await track?.computePacketStats();
+  expect(stats?.packetCount).toBe(30);
+  await until('the size', async () => (await page.locator('#recording-said').textContent())?.startsWith('The video has'));
+});
+
+it('Recording_IsCancelled_AndTooManyFramesAreRefused', async () => {
+  const viewer = await pages.open(kStill);
+  const { page } = viewer;
+  await page.keyboard.press('Control+k');
+  await page.locator('#search-text').fill('record a video');
+  await page.locator('#search-list [aria-selected=true]').waitFor();
+  await page.keyboard.press('Enter');
+  await page.locator('#recording-size').selectOption({ index: 0 });
+  await page.locator('#recording-seconds').fill('1000');
+  await page.locator('#recording-start').click();
+  const said = page.locator('#recording-said');
+  await until('the limit', async () => (await said.textContent())?.startsWith('30000 frames are too many'));
+  await page.locator('#recording-seconds').fill('100');
+  await page.locator('#recording-start').click();
+  await until('some frames', async () => /^Frame \d+ of 3000/.test((await said.textContent()) ?? ''));
+  await page.locator('#recording-cancel').click();
+  await until('its end', async () => (await said.textContent()) === 'The video was not recorded: cancelled');
+  expect(await page.locator('#recording-start').isEnabled()).toBe(true);
 });

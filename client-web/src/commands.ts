@@ -4,6 +4,7 @@ import type { AnimationActions } from './cards/animation_card';
 import type { LookActions } from './cards/looks_card';
 import type { PathActions } from './cards/path_card';
 import type { PictureActions } from './cards/picture_card';
+import type { RecordActions } from './cards/record_card';
 import type { RendererActions } from './cards/renderers_card';
 import type { RoomActions } from './cards/room_card';
 import { download, fileName } from './core/download';
@@ -59,6 +60,7 @@ export class Commands
     LookActions,
     PathActions,
     PictureActions,
+    RecordActions,
     RendererActions
 {
   private readonly lightSet = new Later(
@@ -280,6 +282,18 @@ export class Commands
     const over = `size=${width}x${height}&format=png`;
     const query = settings === null ? over : stillAddress(settings, server?.scene?.id ?? '', over);
     return { path: `render?${query}`, file: fileName('png') };
+  }
+
+  frame({ width, height }: Size, timeS: number, view: PathView | null): string {
+    const { server, settings } = this.store.state;
+    const over = `size=${width}x${height}&format=png`;
+    if (settings === null) return `render?${over}`;
+    const camera = view && { eye: view.eye, target: view.target, up: view.up, fovDeg: view.fovDeg, orthographic: false };
+    const clocks = {
+      ...(settings.animate && { lightTime: timeS }),
+      ...(settings.animation > 0 && settings.animationPlaying && { animationTime: timeS * settings.animationSpeed }),
+    };
+    return `render?${stillAddress({ ...settings, ...camera, ...clocks }, server?.scene?.id ?? '', over)}`;
   }
 
   isReadable(): boolean {

@@ -9,6 +9,7 @@ import { Legend } from './cards/legend';
 import type { LooksCard } from './cards/looks_card';
 import type { PathCard } from './cards/path_card';
 import type { PictureCard } from './cards/picture_card';
+import type { RecordCard } from './cards/record_card';
 import type { RenderersCard } from './cards/renderers_card';
 import type { RoomCard } from './cards/room_card';
 import type { ScenesCard } from './cards/scenes_card';
@@ -185,6 +186,7 @@ const compareBar = new Later(makeCompareBar, partMissing);
 const compareCard = new Later(makeCompareCard, partMissing);
 const pathCard = new Later(makePathCard, partMissing);
 const pictureCard = new Later(makePictures, partMissing);
+const recordCard = new Later(makeRecordCard, partMissing);
 const bring = new Later(makeBring, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
 let warpMissing = false;
@@ -318,7 +320,7 @@ async function makePathCard(): Promise<PathCard> {
     import('./cards/path_card'),
     import('./style/path.css'),
   ]);
-  const made = new PathCard(commands, nextFrame);
+  const made = new PathCard(commands, { record: doings.video, nextFrame });
   made.read(store.state.path);
   return made;
 }
@@ -329,6 +331,14 @@ async function makePictures(): Promise<PictureCard> {
     import('./style/renderers.css'),
   ]);
   return new PictureCard(commands, files);
+}
+
+async function makeRecordCard(): Promise<RecordCard> {
+  const [{ RecordCard }] = await Promise.all([
+    import('./cards/record_card'),
+    import('./style/path.css'),
+  ]);
+  return new RecordCard(commands, files, () => pathCard.here?.path ?? null);
 }
 
 async function makeRoom(): Promise<RoomCard> {
@@ -474,6 +484,7 @@ const doings: Doings = {
   compare: () => void compareCard.want().then((card) => card?.toggle()),
   path: () => void pathCard.want().then((card) => card?.toggle()),
   pictures: () => void pictureCard.want().then((card) => card?.toggle()),
+  video: () => void recordCard.want().then((card) => card?.toggle()),
   room: () => void roomCard.want().then((card) => card?.toggle()),
   screenshot: () => (commands.isReadable() ? void commands.saveShown() : doings.pictures()),
   copyLink: () => void address.copy(),

@@ -27,6 +27,11 @@ export interface PathActions {
   keepPath(line: string): void;
 }
 
+export interface PathPage {
+  readonly record: () => void;
+  readonly nextFrame: (action: (nowMs: number) => void) => void;
+}
+
 /** Links of more characters are cut by servers and chats. */
 const kLongestLine = 4_000;
 const kBuiltInSeconds = 12;
@@ -58,6 +63,7 @@ const kHtml = `
       <button id="path-flythrough" type="button" title="Through the scene’s cameras, or straight ahead">Flythrough</button>
       <button id="path-open" type="button">Open a file</button>
       <button id="path-save" type="button">Save as a file</button>
+      <button id="path-record" type="button">Record a video</button>
       <button id="path-clear" type="button">Remove all</button>
       <input id="path-file" type="file" accept=".json,application/json" hidden />
     </p>
@@ -88,8 +94,9 @@ export class PathCard {
 
   constructor(
     private readonly actions: PathActions,
-    nextFrame: (action: (nowMs: number) => void) => void,
+    { record, nextFrame }: PathPage,
   ) {
+    element('path-record', HTMLButtonElement).addEventListener('click', record);
     this.player = new PathPlayer({
       view: () => actions.perspective(),
       setView: (view) => actions.setView(view),
@@ -277,7 +284,7 @@ export class PathCard {
     this.loop.checked = keys.loop;
     const empty = made === null;
     for (const control of [this.play, this.time, this.length, this.even, this.loop]) control.disabled = empty;
-    for (const id of ['path-save', 'path-clear']) element(id, HTMLButtonElement).disabled = empty;
+    for (const id of ['path-save', 'path-record', 'path-clear']) element(id, HTMLButtonElement).disabled = empty;
     const focused = [...this.marks.children].findIndex((mark) => mark === document.activeElement);
     this.marks.replaceChildren(...(made ? keys.keys.map((_, index) => this.markOf(made, index)) : []));
     const again = this.marks.children[focused];

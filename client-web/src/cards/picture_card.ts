@@ -1,9 +1,9 @@
 // Saves the picture: as it is shown, or drawn anew in a size of one's own.
 
 import { closeBeside, element, make } from '../core/dom';
-import type { Size } from '../core/size';
+import { sizeText, type Size } from '../core/size';
 import { download } from '../core/download';
-import type { ServerFiles } from '../protocol/server_files';
+import { reasonOf, type ServerFiles } from '../protocol/server_files';
 
 export interface PictureActions {
   /** Of the picture that is shown; null: there is none. */
@@ -79,17 +79,5 @@ export class PictureCard {
       const why = error instanceof Error ? error.message : '';
       this.said.textContent = `${sizeText(size)} was not drawn: ${why}`;
     }
-  }
-}
-
-const sizeText = ({ width, height }: Size): string => `${width} × ${height}`;
-
-async function reasonOf(answer: Response): Promise<string> {
-  const text = await answer.text();
-  try {
-    const { message } = JSON.parse(text) as { message?: unknown };
-    return typeof message === 'string' ? message : `HTTP ${answer.status}`;
-  } catch {
-    return text.trim().slice(0, 200) || `HTTP ${answer.status}`;
   }
 }

@@ -20,3 +20,5 @@ export function containedIn(box: Rect, picture: Size): Rect {
     height,
   };
 }
+
+export const sizeText = ({ width, height }: Size): string => `${width} × ${height}`;

@@ -37,3 +37,14 @@ export class ServerFiles {
     return url;
   }
 }
+
+/** Why a request was refused, in the server's words where it has some. */
+export async function reasonOf(answer: Response): Promise<string> {
+  const text = await answer.text();
+  try {
+    const { message } = JSON.parse(text) as { message?: unknown };
+    return typeof message === 'string' ? message : `HTTP ${answer.status}`;
+  } catch {
+    return text.trim().slice(0, 200) || `HTTP ${answer.status}`;
+  }
+}
