@@ -134,9 +134,14 @@ async function looksAsItShould(name: string): Promise<void> {
     await until(`${name} at ${width} × ${height} as its golden picture has it`, async () => {
       return (await offGolden(viewer, blank, `${name}_${width}`)) <= kTolerance;
     });
-    expect.soft(await findings('#000'), `${name} at ${width} × ${height}`).toEqual([]);
-    expect.soft(await findings('#fff', ['color-contrast']), `${name} over white`).toEqual([]);
+    await isUsable(`${name} at ${width} × ${height}`);
   }
+}
+
+/** By everybody, over a picture of any brightness. */
+async function isUsable(name: string): Promise<void> {
+  expect.soft(await findings('#000'), name).toEqual([]);
+  expect.soft(await findings('#fff', ['color-contrast']), `${name} over white`).toEqual([]);
 }
 
 it('Connecting', async () => {
@@ -228,6 +233,30 @@ it('Help', async () => {
   await openWithPicture();
   await viewer.page.locator('#tool-help').click();
   await looksAsItShould('help');
+});
+
+it('CameraPath', async () => {
+  await openWithPicture();
+  await viewer.page.locator('#view').press('y');
+  for (let key = 1; key <= 2; key += 1) {
+    await viewer.page.locator('#path-add').click();
+    await until('a key', async () => (await viewer.page.locator('.path-key').count()) === key);
+  }
+  await looksAsItShould('path');
+});
+
+it('Comparison', async () => {
+  await openWithPicture();
+  await viewer.page.evaluate(() => (location.hash += '&compare=exposure:8'));
+  await until('figures', async () => (await viewer.page.locator('#compare-difference').textContent())?.includes('pixels differ'));
+  // The line is behind the figures, which axe cannot tell.
+  await viewer.page.addStyleTag({ content: `${kSteady} #compare-line { display: none; }` });
+  await viewer.page.evaluate(kAxe);
+  for (const size of kSizes) {
+    await viewer.page.setViewportSize(size);
+    await viewer.screenshot(`comparison_${size.width}`);
+    await isUsable(`a comparison at ${size.width} × ${size.height}`);
+  }
 });
 
 it('Lost_DimsTheLastPicture', async () => {
