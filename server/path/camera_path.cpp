@@ -27,6 +27,11 @@ glm::dvec3 mirrored(const glm::dvec3& end, const glm::dvec3& before) {
     return end + (end - before);
 }
 
+// What is nearer has no length in doubles.
+bool apart(const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::distance(a, b) > 0;
+}
+
 } // namespace
 
 Result<void> check(const PathKeys& path) {
@@ -41,9 +46,10 @@ Result<void> check(const PathKeys& path) {
     }
     for (size_t i = 1; i < keys.size(); ++i) {
         const std::string name = "keys[" + numberText(i) + "]";
-        if (!(keys[i].at_s > keys[i - 1].at_s)) {
+        if (!(keys[i].at_s - keys[i - 1].at_s >= kLeastStep_s)) {
             return wrong(name + ".at_s is " + numberText(keys[i].at_s) + "; it must be more than " +
-                         numberText(keys[i - 1].at_s) + ", that of the key before it");
+                         numberText(keys[i - 1].at_s) +
+                         ", that of the key before it, by a microsecond or more");
         }
         if (path.constant_speed && keys[i].camera.eye_world == keys[i - 1].camera.eye_world) {
             return wrong(name + ".eye is that of the key before it; with constant_speed each key "
@@ -51,7 +57,8 @@ Result<void> check(const PathKeys& path) {
         }
     }
     const double last_s = keys.back().at_s;
-    const bool fits = path.loop && keys.size() > 1 ? path.seconds > last_s : path.seconds >= last_s;
+    const bool fits = path.loop && keys.size() > 1 ? path.seconds - last_s >= kLeastStep_s
+                                                   : path.seconds >= last_s;
     if (!fits || !(path.seconds >= 0)) {
         return wrong("seconds is " + numberText(path.seconds) + "; it must be " +
                      (path.loop ? "more than " : "at least ") + numberText(last_s) +
@@ -68,7 +75,7 @@ CameraPath::Segment CameraPath::segmentOf(const std::array<glm::dvec3, 4>& point
     const auto& [before, begin, end, after] = points;
     Segment segment;
     segment.terms = {begin};
-    if (begin == end) {
+    if (!apart(begin, end)) {
         return segment;
     }
     // Knots are the square roots of the distances apart; the slopes are of u.
@@ -123,8 +130,8 @@ CameraPath::CameraPath(PathKeys keys) : keys_(std::move(keys)) {
         const auto eye = [this](size_t index) { return key(index).camera.eye_world; };
         const glm::dvec3 begin = eye(i);
         const glm::dvec3 end = eye(i + 1);
-        const bool has_before = (round || i > 0) && eye(i + count - 1) != begin;
-        const bool has_after = (round || i + 2 < count) && eye(i + 2) != end;
+        const bool has_before = (round || i > 0) && apart(eye(i + count - 1), begin);
+        const bool has_after = (round || i + 2 < count) && apart(eye(i + 2), end);
         segments_.push_back(segmentOf({has_before ? eye(i + count - 1) : mirrored(begin, end),
                                        begin, end, has_after ? eye(i + 2) : mirrored(end, begin)}));
         ways_m_.push_back(ways_m_.back() + segments_.back().length());

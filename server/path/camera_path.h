@@ -30,10 +30,12 @@ struct PathKeys {
 };
 
 inline constexpr size_t kMaxKeys = 1000;
+inline constexpr double kLeastStep_s = 1e-6; // from one key to the next
 
 // What is wrong with keys that no file was read for; none: they make a path. kInvalidArgument: no
-// key, or more than kMaxKeys; times that do not grow, begin before 0 or end after `seconds`; a loop
-// without time for the way back; a constant speed where two neighbours are at one place.
+// key, or more than kMaxKeys; times that do not grow by kLeastStep_s, begin before 0 or end after
+// `seconds`; a loop without time for the way back; a constant speed where two neighbours are at one
+// place.
 [[nodiscard]] Result<void> check(const PathKeys& keys);
 
 class CameraPath {

@@ -52,6 +52,15 @@ class Reader {
         }
         return place;
     }
+    void length(double metres,
+                const std::string& name,
+                const char* what,
+                const settings::Range<double>& range) {
+        if (!range.contains(metres)) {
+            fail(name + " is " + numberText(metres) + " m " + what + "; it must be " +
+                 numberText(range.min) + " to " + numberText(range.max));
+        }
+    }
     void knownMembers(const Json& object,
                       const std::string& path,
                       std::initializer_list<const char*> names) {
@@ -103,13 +112,10 @@ ReadKey readKey(Reader& reader, const Json& json, const std::string& name) {
         reader.fail(path + (eye ? "target" : "eye") + " is missing");
         return key;
     }
-    if (*eye == *target) {
-        reader.fail(path + "target is where the eye is");
-    }
+    reader.length(glm::distance(*eye, *target), path + "target", "from the eye",
+                  settings::kFocusRange);
     const glm::dvec3 up = place("up").value_or(glm::dvec3(0, 1, 0));
-    if (up == glm::dvec3(0)) {
-        reader.fail(path + "up is [0,0,0]; it must be a direction");
-    }
+    reader.length(glm::length(up), path + "up", "long", settings::kUpRange);
     key.camera = settings::lookAt(*eye, *target, up);
     const Json* fov = memberOf(json, "fov_deg");
     key.camera.yfov_rad =

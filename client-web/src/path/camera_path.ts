@@ -23,6 +23,7 @@ export interface PathKeys {
 }
 
 export const kMaxKeys = 1000;
+const kLeastStepS = 1e-6; // from one key to the next
 
 const kSteps = 64; // of a segment's length
 
@@ -33,6 +34,8 @@ const hermite = (x: number, slope0: number, slope1: number, end: number): number
 const clamp = (value: number, least: number, most: number): number => Math.max(least, Math.min(most, value));
 const mix = (a: number, b: number, share: number): number => a * (1 - share) + b * share;
 const distance = (a: Vec, b: Vec): number => length(sub(a, b));
+/** What is nearer has no length in doubles. */
+const apart = (a: Vec, b: Vec): boolean => distance(a, b) > 0;
 /** Where a path ends, or rests, it goes on as if it were mirrored. */
 const mirrored = (end: Vec, before: Vec): Vec => add(end, sub(end, before));
 
@@ -45,7 +48,7 @@ class Segment {
   constructor(before: Vec, begin: Vec, end: Vec, after: Vec) {
     const none = vec(0, 0, 0);
     this.terms = [begin, none, none, none];
-    if (equal(begin, end)) return;
+    if (!apart(begin, end)) return;
     // Knots are the square roots of the distances apart; the slopes are of u.
     const k0 = Math.sqrt(distance(before, begin));
     const k1 = Math.sqrt(distance(begin, end));
@@ -154,8 +157,8 @@ export class CameraPath {
     for (let i = 0; i < segmentCount; i += 1) {
       const [begin, end] = [this.key(i).eye, this.key(i + 1).eye];
       const [before, after] = [this.key(i + count - 1).eye, this.key(i + 2).eye];
-      const hasBefore = (round || i > 0) && !equal(before, begin);
-      const hasAfter = (round || i + 2 < count) && !equal(after, end);
+      const hasBefore = (round || i > 0) && apart(before, begin);
+      const hasAfter = (round || i + 2 < count) && apart(after, end);
       const segment = new Segment(
         hasBefore ? before : mirrored(begin, end),
         begin,
@@ -267,14 +270,14 @@ export function problemOf({ keys, seconds, constantSpeed, loop }: PathKeys): str
   for (const [i, key] of keys.entries()) {
     const before = keys[i - 1];
     if (!before) continue;
-    if (!(key.atS > before.atS)) {
-      return `keys[${i}].at_s is ${key.atS}; it must be more than ${before.atS}, that of the key before it`;
+    if (!(key.atS - before.atS >= kLeastStepS)) {
+      return `keys[${i}].at_s is ${key.atS}; it must be more than ${before.atS}, that of the key before it, by a microsecond or more`;
     }
     if (constantSpeed && equal(key.eye, before.eye)) {
       return `keys[${i}].eye is that of the key before it; with constant_speed each key must be somewhere else`;
     }
   }
-  const fits = loop && keys.length > 1 ? seconds > last.atS : seconds >= last.atS;
+  const fits = loop && keys.length > 1 ? seconds - last.atS >= kLeastStepS : seconds >= last.atS;
   if (!fits || !(seconds >= 0)) {
     return `seconds is ${seconds}; it must be ${loop ? 'more than' : 'at least'} ${last.atS}, the time of the last key`;
   }

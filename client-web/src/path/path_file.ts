@@ -1,6 +1,6 @@
 // Camera paths as JSON: files, and what an address has. server/path/path_file.h describes the format.
 
-import { equal, vec, type Vec } from '../core/vec3';
+import { equal, length, sub, vec, type Vec } from '../core/vec3';
 import { kMaxKeys, problemOf, type Key, type PathKeys } from './camera_path';
 
 const kUp = vec(0, 1, 0);
@@ -15,6 +15,9 @@ interface Range {
 const kSeconds: Range = { min: 0, max: 3600 };
 const kPosition: Range = { min: -1e7, max: 1e7 };
 const kFovDeg: Range = { min: 1, max: 170 };
+
+const kFocus: Range = { min: 1e-6, max: 1e8 };
+const kUpLength: Range = { min: 1e-6, max: 1e8 };
 
 type Json = Record<string, unknown>;
 
@@ -39,6 +42,11 @@ function placeOf(value: unknown, name: string): Vec {
   return vec(x ?? 0, y ?? 0, z ?? 0);
 }
 
+function checkLength(metres: number, name: string, what: string, { min, max }: Range): void {
+  if (metres >= min && metres <= max) return;
+  throw new Error(`${name} is ${metres} m ${what}; it must be ${min} to ${max}`);
+}
+
 function onlyMembers(object: Json, path: string, names: readonly string[]): void {
   const other = Object.keys(object).find((name) => !names.includes(name));
   if (other !== undefined) throw new Error(`${path}${other.slice(0, 60)} is not a member of a camera path`);
@@ -49,9 +57,9 @@ function keyOf(json: unknown, name: string): Omit<Key, 'atS'> & { readonly atS: 
   onlyMembers(json, `${name}.`, kKeyMembers);
   for (const needed of ['eye', 'target']) if (!(needed in json)) throw new Error(`${name}.${needed} is missing`);
   const [eye, target] = [placeOf(json.eye, `${name}.eye`), placeOf(json.target, `${name}.target`)];
-  if (equal(eye, target)) throw new Error(`${name}.target is where the eye is`);
+  checkLength(length(sub(eye, target)), `${name}.target`, 'from the eye', kFocus);
   const up = 'up' in json ? placeOf(json.up, `${name}.up`) : kUp;
-  if (equal(up, vec(0, 0, 0))) throw new Error(`${name}.up is [0,0,0]; it must be a direction`);
+  checkLength(length(up), `${name}.up`, 'long', kUpLength);
   return {
     eye,
     target,

@@ -49,10 +49,10 @@ describe('path file', () => {
     ['{"keys": [], "seconds": 4000}', 'seconds is 4000; it must be a number from 0 to 3600'],
     [keys('3'), 'keys[0] is 3; it must be an object'],
     [keys('{"eye": [0, 0, 0]}'), 'keys[0].target is missing'],
-    [keys('{"eye": [0, 0, 0], "target": [0, 0, 0]}'), 'keys[0].target is where the eye is'],
+    [keys('{"eye": [0, 0, 0], "target": [0, 0, 0]}'), 'keys[0].target is 0 m from the eye; it must be 0.000001 to 100000000'],
     [keys('{"eye": [0, 0, 1e9], "target": [0, 0, 0]}'), 'keys[0].eye[2] is 1000000000; it must be a number from -10000000 to 10000000'],
     [keys('{"eye": [0, 0], "target": [0, 0, 0]}'), 'keys[0].eye is [0,0]; it must be three numbers'],
-    [keys('{"eye": [0, 0, 1], "target": [0, 0, 0], "up": [0, 0, 0]}'), 'keys[0].up is [0,0,0]; it must be a direction'],
+    [keys('{"eye": [0, 0, 1], "target": [0, 0, 0], "up": [0, 0, 0]}'), 'keys[0].up is 0 m long; it must be 0.000001 to 100000000'],
     [keys('{"eye": [0, 0, 1], "target": [0, 0, 0], "fov_deg": 0}'), 'keys[0].fov_deg is 0; it must be a number from 1 to 170'],
     [
       keys('{"eye": [0, 0, 1], "target": [0, 0, 0], "at_s": 1}, {"eye": [0, 0, 1], "target": [0, 0, 0]}'),

@@ -194,7 +194,7 @@ class CommandLine(unittest.TestCase):
             self.assertIn(words, run.stderr)
         path.write_text('{"keys": [{"eye": [0, 0, 0], "target": [0, 0, 0]}]}')
         run = froxel("render", *SMALL, "--path", path, "--out", f"{out}/")
-        self.assert_refused(run, 2, "path.json: keys[0].target is where the eye is")
+        self.assert_refused(run, 2, "path.json: keys[0].target is 0 m from the eye")
         self.assert_refused(froxel("render", *SMALL, "--out", f"{out}/"), 2, "is a folder, which needs --path")
 
     def test_record_writes_a_video(self):
