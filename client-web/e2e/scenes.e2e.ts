@@ -56,6 +56,24 @@ it('Gallery_ChosenSceneIsShown_AndALinkCarriesIt', async () => {
   await sceneName(viewer, 'Hall');
 });
 
+it('CameraPath_IsOfItsScene_AndComesWithItsLink', async () => {
+  const viewer = await pages.open(kStill);
+  await choose(viewer, 'triangle');
+  await sceneName(viewer, 'triangle');
+  await viewer.page.locator('#view').press('y');
+  await viewer.page.locator('#path-turntable').click();
+  const fragment = (): string => new URL(viewer.page.url()).hash;
+  await until('the link', () => fragment().includes('path=') || null);
+
+  const other = await pages.open(fragment());
+  await sceneName(other, 'triangle');
+  await until('its keys', async () => (await other.page.locator('.path-key').count()) === 24);
+  await choose(other, 'hall');
+  await sceneName(other, 'Hall');
+  await until('no path', async () => (await other.page.locator('.path-key').count()) === 0);
+  await until('a link without it', () => !new URL(other.page.url()).hash.includes('path='));
+});
+
 it('Gallery_BrokenFile_IsOneLineAndChangesNothing', async () => {
   const viewer = await pages.open(kStill);
   await choose(viewer, 'broken');

@@ -260,6 +260,7 @@ store.listen(({ server }, before) => {
   sceneWarnings.show(server.scene);
   const id = server.scene?.id ?? '';
   if (id !== before.server?.scene?.id) bring.here?.sceneShown(id);
+  if (before.server && id !== (before.server.scene?.id ?? '')) pathCard.here?.sceneShown(store.state.path);
   if (server.scene?.animations.length) void animationCard.want().then((card) => card?.show(store.state));
 });
 

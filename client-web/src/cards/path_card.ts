@@ -90,7 +90,7 @@ export class PathCard {
   private made: CameraPath | null = null; // null: there is no key
   private chosen: number | null = null;
   private timeS = 0;
-  private line = ''; // what the address was told
+  private line: string | null = ''; // what the address was told; null: it is read anew
 
   constructor(
     private readonly actions: PathActions,
@@ -128,6 +128,12 @@ export class PathCard {
     } catch (error) {
       this.say(`link: path: ${messageOf(error)}`);
     }
+  }
+
+  /** Of another scene, with the address's path: one that no address keeps was the last scene's. */
+  sceneShown(line: string): void {
+    this.line = null;
+    this.read(line);
   }
 
   private listen(): void {
