@@ -38,7 +38,6 @@ struct EncodeJob {
     // What the picture is made of `pixels` by, on an encoder thread, before it is encoded; must not
     // throw, but for std::bad_alloc. None: they are the picture.
     std::function<PixelLease(PixelLease)> prepare = nullptr;
-    bool prepares_long = false; // much longer than encoding takes
 
     [[nodiscard]] bool lossless() const { return settings::rowOf(encoding.codec).lossless; }
 };

@@ -16,7 +16,7 @@ EncodePool::EncodePool(size_t thread_count, size_t queue_limit)
 bool EncodePool::submit(EncodeJob&& job) {
     const PixelView& pixels = job.pixels.view();
     const uint64_t area_px = uint64_t{pixels.width_px} * pixels.height_px;
-    const bool waits = job.lossless() || job.prepares_long || area_px > kLargeArea_px;
+    const bool waits = job.lossless() || job.prepare || area_px > kLargeArea_px;
     return (waits ? patient_ : quick_).submit(std::move(job));
 }
 

@@ -1,7 +1,7 @@
-// Where pictures are encoded, in two lanes: most within milliseconds, large and lossless ones, and
-// those that are long prepared, which take up to seconds, on threads of their own that give way to
-// others. So nobody's picture
-// waits for a huge one, and on a CPU device drawing does not share its cores with it. When a lane's
+// Where pictures are encoded, in two lanes: most within milliseconds; large and lossless ones, and
+// those that are prepared first, which take up to seconds, on threads of their own that give way to
+// others. So nobody's picture waits for a huge one or for other viewers' comparisons, and on a CPU
+// device drawing does not share its cores with them. When a lane's
 // queue is full, submit() refuses at once and never waits: the caller decides what to drop.
 #pragma once
 

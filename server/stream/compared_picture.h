@@ -17,12 +17,7 @@ struct ComparedSides {
     // Where they differ, each side is shown as a JPEG of it comes out of a decoder.
     settings::Encoding left_encoding;
     settings::Encoding right_encoding;
-    bool flip_wanted = false;
-
-    // Which takes 0.3 s of 1280x720 pixels.
-    [[nodiscard]] bool measuresFlip() const {
-        return flip_wanted || show == session::CompareShow::kHeatMap;
-    }
+    bool flip_wanted = false; // which takes 0.3 s of 1280x720 pixels; a heat map has it anyway
 };
 
 // Fills the figures in `record`. Ends both leases. Any thread. Throws std::bad_alloc.

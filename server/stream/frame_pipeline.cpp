@@ -126,8 +126,7 @@ void FramePipeline::startEncoding() {
                               },
                               videoJob(*encoding_),
                               this,
-                              composition(),
-                              encoding_->compared && encoding_->compared->measuresFlip()};
+                              composition()};
         taken = pool_.submit(std::move(job));
     } // a lease that was not taken ends here
     if (!taken) {

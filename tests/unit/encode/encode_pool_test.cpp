@@ -62,8 +62,8 @@ TEST(EncodePool, Prepare_MakesThePicture) {
     EXPECT_EQ(*frame.bytes, JpegEncoder().encode(picture.view(), kEncoding).value());
 }
 
-// A viewer whose pictures are measured for long does not keep others' waiting.
-TEST(EncodePool, WhatIsPreparedForLong_HasThreadsOfItsOwn) {
+// A viewer who compares does not keep the pictures of others waiting.
+TEST(EncodePool, WhatIsPrepared_HasThreadsOfItsOwn) {
     const Picture picture = makePicture(64, 48);
     EncodePool pool(1, 4);
     std::promise<void> go;
@@ -74,7 +74,6 @@ TEST(EncodePool, WhatIsPreparedForLong_HasThreadsOfItsOwn) {
         go.get_future().wait();
         return pixels;
     };
-    slow.prepares_long = true;
     ASSERT_TRUE(pool.submit(std::move(slow)));
     std::promise<void> quick;
     ASSERT_TRUE(pool.submit(
