@@ -1,9 +1,10 @@
 """Measures what viewers who compare two settings cost one who does not.
 
-Usage: comparing_viewers.py FROXEL [--viewers 3] [--seconds 12] [--size 640x360] [-- OPTIONS OF froxel serve]
+Usage: comparing_viewers.py FROXEL [--viewers 3] [--seconds 12] [--size 640x360] [--right renderer:naive]
+       [-- OPTIONS OF froxel serve]
 
-One viewer orbits. Beside it are so many viewers who also orbit, and then as many who compare the naive renderer with the
-clustered deferred one while their camera moves. Shares are fair where the first viewer has about the same figures in
+One viewer orbits. Beside it are so many viewers who also orbit, and then as many who compare the view with what --right
+changes of it while their camera moves. Shares are fair where the first viewer has about the same figures in
 both, and better ones than those who compare.
 """
 
@@ -16,12 +17,10 @@ from pathlib import Path
 
 from server import Server, split_arguments
 
-RIGHT = "renderer:naive"
 
-
-def comparing(seconds):
+def comparing(seconds, right):
     """Lines of a script: a comparison, and a camera that moves 60 times a second."""
-    yield {"at_ms": 0, "setCompare": {"right": RIGHT}}
+    yield {"at_ms": 0, "setCompare": {"right": right}}
     for i in range(60 * seconds):
         yield {"at_ms": i * 1000 // 60,
                "setCamera": {"eye": {"x": -7 + i % 120 / 20, "y": 2}, "target": {"x": 4, "y": 2}}}
@@ -58,10 +57,11 @@ def main():
     parser.add_argument("--viewers", type=int, default=3)
     parser.add_argument("--seconds", type=int, default=12)
     parser.add_argument("--size", default="640x360")
+    parser.add_argument("--right", default="renderer:naive")
     options = parser.parse_args(own)
     with tempfile.TemporaryDirectory() as folder, Server(options.froxel, *serve) as server:
         script = Path(folder, "comparing.jsonl")
-        script.write_text("".join(json.dumps(line) + "\n" for line in comparing(options.seconds + 30)))
+        script.write_text("".join(json.dumps(line) + "\n" for line in comparing(options.seconds + 30, options.right)))
         print(f"{'beside it':<20}{'fps':>8}{'p50 ms':>10}{'p99 ms':>10}{'stall ms':>10}{'others fps':>14}")
         measure(options, server.url, "orbit")  # every pipeline is there
         measure(options, server.url, script)
