@@ -291,9 +291,16 @@ export class Commands
     const camera = view && { eye: view.eye, target: view.target, up: view.up, fovDeg: view.fovDeg, orthographic: false };
     const clocks = {
       ...(settings.animate && { lightTime: timeS }),
-      ...(settings.animation > 0 && settings.animationPlaying && { animationTime: timeS * settings.animationSpeed }),
+      ...(settings.animation > 0 && settings.animationPlaying && { animationTime: this.played(settings, timeS) }),
     };
     return `render?${stillAddress({ ...settings, ...camera, ...clocks }, server?.scene?.id ?? '', over)}`;
+  }
+
+  /** Seconds of the animation, which begins at its end where it plays backwards. */
+  private played({ animation, animationSpeed }: Settings, timeS: number): number {
+    const durationS = this.store.state.server?.scene?.animations[animation - 1]?.durationS ?? 0;
+    const start = animationSpeed < 0 ? durationS * Math.ceil((-animationSpeed * timeS) / Math.max(durationS, 1e-3)) : 0;
+    return Math.max(0, start + timeS * animationSpeed);
   }
 
   isReadable(): boolean {
