@@ -1,10 +1,9 @@
 // What the panel, the keys and the pointer can do, as actions on the store and the connection.
 
+import { messageOf } from './core/format';
 import type { AnimationActions } from './cards/animation_card';
 import type { LookActions } from './cards/looks_card';
-import type { PathActions } from './cards/path_card';
 import type { PictureActions } from './cards/picture_card';
-import type { RecordActions } from './cards/record_card';
 import type { RendererActions } from './cards/renderers_card';
 import type { RoomActions } from './cards/room_card';
 import { download, fileName } from './core/download';
@@ -13,7 +12,6 @@ import type { Size } from './core/size';
 import { add, length, normalize, scale, sub } from './core/vec3';
 import type { Renderer } from './gen/froxel/v1/common_pb';
 import type { PanelActions } from './panel/panel';
-import type { View as PathView } from './path/camera_path';
 import type { Picture } from './picture/picture';
 import type { Connection } from './protocol/connection';
 import type { Recorder } from './protocol/recorder';
@@ -28,7 +26,7 @@ import {
   type PlacedLight,
 } from './settings/placed_lights';
 import { cameraCommand, settingCommands } from './settings/setting_commands';
-import { cameraOf, toVec, type Bounds, type Settings, type Value } from './settings/settings';
+import { cameraOf, type Settings, type Value } from './settings/settings';
 import { centreOf, diagonalOf, fitted, isInside } from './settings/sight';
 import { parseAddress, stillAddress } from './state/address';
 import { kRenderers, rendererLabel } from './state/renderers';
@@ -58,9 +56,7 @@ export class Commands
     RoomActions,
     AnimationActions,
     LookActions,
-    PathActions,
     PictureActions,
-    RecordActions,
     RendererActions
 {
   private readonly lightSet = new Later(
@@ -143,7 +139,7 @@ export class Commands
     try {
       this.edit({ placedLights: reader.lightSetOf(await file.text()) });
     } catch (error) {
-      this.refuse(`${file.name} is not a light set: ${error instanceof Error ? error.message : ''}`);
+      this.refuse(`${file.name} is not a light set: ${messageOf(error)}`);
     }
   }
 
@@ -277,30 +273,15 @@ export class Commands
     return this.picture.size();
   }
 
-  still({ width, height }: Size): { path: string; file: string } {
-    const { server, settings } = this.store.state;
-    const over = `size=${width}x${height}&format=png`;
-    const query = settings === null ? over : stillAddress(settings, server?.scene?.id ?? '', over);
-    return { path: `render?${query}`, file: fileName('png') };
+  still(size: Size): { path: string; file: string } {
+    return { path: this.pngOf(size, this.store.state.settings), file: fileName('png') };
   }
 
-  frame({ width, height }: Size, timeS: number, view: PathView | null): string {
-    const { server, settings } = this.store.state;
+  /** Path of a still; null: as the server begins. */
+  pngOf({ width, height }: Size, settings: Settings | null): string {
     const over = `size=${width}x${height}&format=png`;
-    if (settings === null) return `render?${over}`;
-    const camera = view && { eye: view.eye, target: view.target, up: view.up, fovDeg: view.fovDeg, orthographic: false };
-    const clocks = {
-      ...(settings.animate && { lightTime: timeS }),
-      ...(settings.animation > 0 && settings.animationPlaying && { animationTime: this.played(settings, timeS) }),
-    };
-    return `render?${stillAddress({ ...settings, ...camera, ...clocks }, server?.scene?.id ?? '', over)}`;
-  }
-
-  /** Seconds of the animation, which begins at its end where it plays backwards. */
-  private played({ animation, animationSpeed }: Settings, timeS: number): number {
-    const durationS = this.store.state.server?.scene?.animations[animation - 1]?.durationS ?? 0;
-    const start = animationSpeed < 0 ? durationS * Math.ceil((-animationSpeed * timeS) / Math.max(durationS, 1e-3)) : 0;
-    return Math.max(0, start + timeS * animationSpeed);
+    const scene = this.store.state.server?.scene?.id ?? '';
+    return `render?${settings === null ? over : stillAddress(settings, scene, over)}`;
   }
 
   isReadable(): boolean {
@@ -355,31 +336,6 @@ export class Commands
 
   refused(): void {
     this.allowed();
-  }
-
-  perspective(): PathView | null {
-    const view = this.view();
-    return view === null || view.orthographic ? null : view;
-  }
-
-  setView({ eye, target, up, fovDeg }: PathView): void {
-    this.edit({ eye, target, up, fovDeg });
-  }
-
-  /** The scene's cameras in perspective. */
-  sceneViews(): PathView[] {
-    const views = this.store.state.server?.scene?.cameraViews ?? [];
-    return views
-      .filter(({ fovDeg }) => fovDeg > 0)
-      .map(({ pose, fovDeg }) => ({ eye: toVec(pose?.eye), target: toVec(pose?.target), up: toVec(pose?.up), fovDeg }));
-  }
-
-  sceneBounds(): Bounds | null {
-    return this.store.state.server?.bounds ?? null;
-  }
-
-  keepPath(path: string): void {
-    this.store.dispatch({ type: 'path', path });
   }
 
   setPose(pose: Pose): void {

@@ -317,11 +317,12 @@ async function makeCompareCard(): Promise<CompareCard> {
 }
 
 async function makePathCard(): Promise<PathCard> {
-  const [{ PathCard }] = await Promise.all([
+  const [{ PathCard }, { Filming }] = await Promise.all([
     import('./cards/path_card'),
+    import('./filming'),
     import('./style/path.css'),
   ]);
-  const made = new PathCard(commands, { record: doings.video, nextFrame });
+  const made = new PathCard(new Filming(store, commands), { record: doings.video, nextFrame });
   made.read(store.state.path);
   return made;
 }
@@ -335,11 +336,12 @@ async function makePictures(): Promise<PictureCard> {
 }
 
 async function makeRecordCard(): Promise<RecordCard> {
-  const [{ RecordCard }] = await Promise.all([
+  const [{ RecordCard }, { Filming }] = await Promise.all([
     import('./cards/record_card'),
+    import('./filming'),
     import('./style/path.css'),
   ]);
-  return new RecordCard(commands, files, () => pathCard.here?.path ?? null);
+  return new RecordCard(new Filming(store, commands), files, () => pathCard.here?.path ?? null);
 }
 
 async function makeRoom(): Promise<RoomCard> {

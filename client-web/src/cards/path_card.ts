@@ -1,7 +1,8 @@
 // Key frames of a camera path: added, moved, removed, played and scrubbed through.
 
 import { download, fileName } from '../core/download';
-import { element, make } from '../core/dom';
+import { appended, element, make } from '../core/dom';
+import { messageOf } from '../core/format';
 import { flythrough, turntable, type Box } from '../path/built_in';
 import { CameraPath, problemOf, type PathKeys, type View } from '../path/camera_path';
 import {
@@ -70,13 +71,8 @@ const kHtml = `
     <p id="path-said" role="status"></p>
   </section>`;
 
-function sectionIn(body: HTMLElement): HTMLElement {
-  body.insertAdjacentHTML('beforeend', kHtml);
-  return element('path', HTMLElement);
-}
-
 export class PathCard {
-  private readonly card = sectionIn(document.body);
+  private readonly card = appended(kHtml, 'path', HTMLElement);
   private readonly play = element('path-play', HTMLButtonElement);
   private readonly time = element('path-time', HTMLInputElement);
   private readonly clock = element('path-clock', HTMLOutputElement);
@@ -344,5 +340,3 @@ export class PathCard {
     mark.onpointercancel = () => this.build();
   }
 }
-
-const messageOf = (error: unknown): string => (error instanceof Error ? error.message : '');

@@ -1,5 +1,6 @@
 // Saves the picture: as it is shown, or drawn anew in a size of one's own.
 
+import { messageOf } from '../core/format';
 import { closeBeside, element, make } from '../core/dom';
 import { sizeText, type Size } from '../core/size';
 import { download } from '../core/download';
@@ -76,7 +77,7 @@ export class PictureCard {
       download(await answer.blob(), file);
       this.dialog.close();
     } catch (error) {
-      const why = error instanceof Error ? error.message : '';
+      const why = messageOf(error);
       this.said.textContent = `${sizeText(size)} was not drawn: ${why}`;
     }
   }

@@ -1,6 +1,7 @@
 // Records a video of the camera path, or of the present view: the server draws every frame, the browser encodes them.
 
-import { closeBeside, element } from '../core/dom';
+import { messageOf } from '../core/format';
+import { appended, closeBeside, element } from '../core/dom';
 import { download, fileName } from '../core/download';
 import { sizeText, type Size } from '../core/size';
 import type { CameraPath, View } from '../path/camera_path';
@@ -36,15 +37,10 @@ const kHtml = `
     </p>
   </dialog>`;
 
-function dialogIn(body: HTMLElement): HTMLDialogElement {
-  body.insertAdjacentHTML('beforeend', kHtml);
-  return element('recording', HTMLDialogElement);
-}
-
 const seconds = (s: number): Promise<void> => new Promise((done) => setTimeout(done, 1000 * s));
 
 export class RecordCard {
-  private readonly dialog = dialogIn(document.body);
+  private readonly dialog = appended(kHtml, 'recording', HTMLDialogElement);
   private readonly size = element('recording-size', HTMLSelectElement);
   private readonly rate = element('recording-rate', HTMLSelectElement);
   private readonly length = element('recording-seconds', HTMLInputElement);
@@ -116,7 +112,7 @@ export class RecordCard {
       download(video, fileName('webm'));
       this.say(`The video has ${(video.size / 1e6).toFixed(1)} MB.`);
     } catch (error) {
-      this.say(`The video was not recorded: ${error instanceof Error ? error.message : ''}`);
+      this.say(`The video was not recorded: ${messageOf(error)}`);
     } finally {
       this.cancel = null;
       this.show(false);

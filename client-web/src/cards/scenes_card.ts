@@ -2,7 +2,7 @@
 
 import { folded } from '../core/entries';
 import { closeBeside, element, make } from '../core/dom';
-import { bytes } from '../core/format';
+import { bytes, messageOf } from '../core/format';
 import type { ServerFiles } from '../protocol/server_files';
 
 export interface SceneActions {
@@ -84,7 +84,7 @@ export class ScenesCard {
       this.show();
       if (!this.search.hidden) this.search.focus();
     } catch (error) {
-      const why = error instanceof Error ? error.message : '';
+      const why = messageOf(error);
       this.said.textContent = `The scenes could not be fetched: ${why}`;
     }
   }

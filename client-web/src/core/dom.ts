@@ -19,6 +19,12 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+/** The element of that id, which comes with HTML of the page's own at the end of the body. */
+export function appended<T extends Element>(html: string, id: string, type: new () => T): T {
+  document.body.insertAdjacentHTML('beforeend', html);
+  return element(id, type);
+}
+
 /** A click beside the box of a modal dialog closes it. */
 export function closeBeside(dialog: HTMLDialogElement): void {
   dialog.addEventListener('click', (event) => {

@@ -42,3 +42,6 @@ export const tidy = (value: number): number =>
 /** A thing of the scene by its place in a list, from 0: "2 walk". */
 export const numberedName = (name: string, index: number): string =>
   `${index + 1} ${name === '' ? '(nameless)' : name}`;
+
+/** Of whatever was thrown. */
+export const messageOf = (error: unknown): string => (error instanceof Error ? error.message : '');

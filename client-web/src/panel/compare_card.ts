@@ -1,6 +1,6 @@
 // Chooses what the right side of a comparison has otherwise.
 
-import { closeBeside, element, make } from '../core/dom';
+import { appended, closeBeside, element, make } from '../core/dom';
 import type { Field } from '../settings/field';
 import { changesOf, rightOf, withChange, type Change } from '../settings/comparison';
 import { choicesFor } from '../settings/fields';
@@ -26,11 +26,6 @@ const kHtml = `
     </p>
   </dialog>`;
 
-function dialogIn(body: HTMLElement): HTMLDialogElement {
-  body.insertAdjacentHTML('beforeend', kHtml);
-  return element('compare-card', HTMLDialogElement);
-}
-
 /** What people compare first. */
 const kReady: readonly (readonly [string, string])[] = [
   ['Naive', 'renderer:naive'],
@@ -53,7 +48,7 @@ export function firstText(field: Field): string {
 }
 
 export class CompareCard {
-  private readonly dialog = dialogIn(document.body);
+  private readonly dialog = appended(kHtml, 'compare-card', HTMLDialogElement);
   private readonly list = element('compare-changes', HTMLElement);
   private readonly add = element('compare-add', HTMLSelectElement);
   private fields: readonly Field[] = [];

@@ -1,6 +1,7 @@
 // Keeps the address and the settings alike: reads it when the page opens or it is edited, writes it
 // a moment after a change.
 
+import { messageOf } from '../core/format';
 import { Codec } from '../gen/froxel/v1/common_pb';
 import { cameraCommand, settingCommands } from '../settings/setting_commands';
 import type { Settings } from '../settings/settings';
@@ -49,7 +50,7 @@ export class AddressKeeper {
       const all = this.store.state.settings === null || this.store.state.wantedScene !== null;
       this.store.dispatch({ type: 'restored', wanted: { ...(all && wanted), placedLights }, size: null, scene });
     } catch (error) {
-      const why = error instanceof Error ? error.message : '';
+      const why = messageOf(error);
       this.store.dispatch({ type: 'notice', tone: 'error', text: `link: placed_lights is not a light set: ${why}` });
     }
   }
