@@ -53,7 +53,7 @@ export function actionsOf(does: Doings): readonly Entry[] {
     action('Camera path', 'y', does.path, 'Moves the camera through key frames of yours', 'animation film movie fly turntable keyframe record'),
     action('Save picture', 'p', does.screenshot, 'Saves the current picture as a PNG file', 'screenshot image download'),
     action('Save picture in a size', '', does.pictures, 'Asks the server for this view in a size of your choice', 'screenshot image download resolution 4k'),
-    action('Record a video', '', does.video, 'Saves the camera path, or the current view, as a WebM file', 'film movie webm screen capture export'),
+    action('Record a video', '', does.video, 'Saves the camera path, or the current view, as a WebM file', 'film movie webm screen capture'),
     action('Copy link', 'l', does.copyLink, 'Copies a link to this view', 'share url address'),
     action('Room', 'm', does.room, 'Opens a room that others join by its link, or shows the current room', 'share together control watch'),
     action('Full screen', '', does.fullscreen, 'Fills the screen, or leaves it'),

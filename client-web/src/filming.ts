@@ -1,18 +1,28 @@
-// What paths and recordings do with the store and the commands. Fetched with their cards.
+// Camera paths and recordings: their cards, and what these do with the store and the commands. Fetched when first wanted.
 
-import type { PathActions } from './cards/path_card';
-import type { RecordActions } from './cards/record_card';
+import { PathCard, type PathActions } from './cards/path_card';
+import { RecordCard, type RecordActions } from './cards/record_card';
 import type { Commands } from './commands';
 import type { Size } from './core/size';
 import type { View } from './path/camera_path';
 import { toVec, type Bounds, type Settings } from './settings/settings';
+import type { ServerFiles } from './protocol/server_files';
 import type { Store } from './state/store';
 
 export class Filming implements PathActions, RecordActions {
+  readonly path: PathCard;
+  readonly recording: RecordCard;
+
   constructor(
     private readonly store: Store,
     private readonly commands: Commands,
-  ) {}
+    files: ServerFiles,
+    nextFrame: (action: (nowMs: number) => void) => void,
+  ) {
+    this.recording = new RecordCard(this, files, () => this.path.path);
+    this.path = new PathCard(this, { record: () => this.recording.toggle(), nextFrame });
+    this.path.read(store.state.path);
+  }
 
   perspective(): View | null {
     const view = this.commands.view();

@@ -7,9 +7,7 @@ import { Banner } from './cards/banner';
 import type { CompareBar } from './cards/compare_bar';
 import { Legend } from './cards/legend';
 import type { LooksCard } from './cards/looks_card';
-import type { PathCard } from './cards/path_card';
 import type { PictureCard } from './cards/picture_card';
-import type { RecordCard } from './cards/record_card';
 import type { RenderersCard } from './cards/renderers_card';
 import type { RoomCard } from './cards/room_card';
 import type { ScenesCard } from './cards/scenes_card';
@@ -20,6 +18,7 @@ import { element, make } from './core/dom';
 import { entryOf, keyText, type Entry } from './core/entries';
 import { wasOpen } from './core/kept';
 import { kMissing, Later } from './core/later';
+import type { Filming } from './filming';
 import { Codec } from './gen/froxel/v1/common_pb';
 import type { CompareCard } from './panel/compare_card';
 import type { Panel } from './panel/panel';
@@ -184,9 +183,8 @@ const scenesCard = new Later(makeScenes, partMissing);
 const renderersCard = new Later(makeRenderers, partMissing);
 const compareBar = new Later(makeCompareBar, partMissing);
 const compareCard = new Later(makeCompareCard, partMissing);
-const pathCard = new Later(makePathCard, partMissing);
+const filming = new Later(makeFilming, partMissing);
 const pictureCard = new Later(makePictures, partMissing);
-const recordCard = new Later(makeRecordCard, partMissing);
 const bring = new Later(makeBring, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
 let warpMissing = false;
@@ -236,8 +234,8 @@ store.listen(({ settings }, before) => {
 });
 store.listen(({ path }, before) => {
   if (path === before.path) return;
-  if (path === '') pathCard.here?.read('');
-  else void pathCard.want().then((card) => card?.read(store.state.path));
+  if (path === '') filming.here?.path.read('');
+  else void filming.want().then((made) => made?.path.read(store.state.path));
 });
 store.listen(({ room }, before) => {
   if (room && !before.room) void roomCard.want().then((card) => card?.show(store.state.room));
@@ -260,7 +258,7 @@ store.listen(({ server }, before) => {
   sceneWarnings.show(server.scene);
   const id = server.scene?.id ?? '';
   if (id !== before.server?.scene?.id) bring.here?.sceneShown(id);
-  if (before.server && id !== (before.server.scene?.id ?? '')) pathCard.here?.sceneShown(store.state.path);
+  if (before.server && id !== (before.server.scene?.id ?? '')) filming.here?.path.sceneShown(store.state.path);
   if (server.scene?.animations.length) void animationCard.want().then((card) => card?.show(store.state));
 });
 
@@ -316,15 +314,12 @@ async function makeCompareCard(): Promise<CompareCard> {
   return new CompareCard(commands, await fetchWords());
 }
 
-async function makePathCard(): Promise<PathCard> {
-  const [{ PathCard }, { Filming }] = await Promise.all([
-    import('./cards/path_card'),
+async function makeFilming(): Promise<Filming> {
+  const [{ Filming }] = await Promise.all([
     import('./filming'),
     import('./style/path.css'),
   ]);
-  const made = new PathCard(new Filming(store, commands), { record: doings.video, nextFrame });
-  made.read(store.state.path);
-  return made;
+  return new Filming(store, commands, files, nextFrame);
 }
 
 async function makePictures(): Promise<PictureCard> {
@@ -333,15 +328,6 @@ async function makePictures(): Promise<PictureCard> {
     import('./style/renderers.css'),
   ]);
   return new PictureCard(commands, files);
-}
-
-async function makeRecordCard(): Promise<RecordCard> {
-  const [{ RecordCard }, { Filming }] = await Promise.all([
-    import('./cards/record_card'),
-    import('./filming'),
-    import('./style/path.css'),
-  ]);
-  return new RecordCard(new Filming(store, commands), files, () => pathCard.here?.path ?? null);
 }
 
 async function makeRoom(): Promise<RoomCard> {
@@ -485,9 +471,9 @@ const doings: Doings = {
   figures: () => statsCard.toggle(),
   renderers: () => void renderersCard.want().then((card) => card?.toggle()),
   compare: () => void compareCard.want().then((card) => card?.toggle()),
-  path: () => void pathCard.want().then((card) => card?.toggle()),
+  path: () => void filming.want().then((made) => made?.path.toggle()),
   pictures: () => void pictureCard.want().then((card) => card?.toggle()),
-  video: () => void recordCard.want().then((card) => card?.toggle()),
+  video: () => void filming.want().then((made) => made?.recording.toggle()),
   room: () => void roomCard.want().then((card) => card?.toggle()),
   screenshot: () => (commands.isReadable() ? void commands.saveShown() : doings.pictures()),
   copyLink: () => void address.copy(),
