@@ -33,6 +33,7 @@ namespace froxel::app {
 
 namespace {
 
+constexpr settings::Size kUsual; // sweeps draw pictures of its shape
 constexpr size_t kDefaultViews = 3;
 constexpr double kViewStepS = 5; // of the lights' clock, from one view to the next
 
@@ -67,7 +68,6 @@ std::vector<bench::View> viewsOfCameras(const BenchOptions& options, const scene
     std::vector<bench::View> views;
     for (const auto& name : names) {
         const auto choice = name.empty() ? CameraChoice{} : parseCamera(name).value();
-        constexpr settings::Size kUsual; // sweeps draw pictures of its shape
         views.push_back({name, findCamera(choice, scene, kUsual).value(),
                          static_cast<double>(views.size()) * kViewStepS});
     }
@@ -104,7 +104,6 @@ std::vector<bench::View> viewsOf(const BenchOptions& options, const scene::Scene
     if (options.path.empty()) {
         return viewsOfCameras(options, scene);
     }
-    constexpr settings::Size kUsual; // sweeps draw pictures of its shape
     const auto first = findCamera({}, scene, kUsual).value();
     return viewsAlong(readCameraPath(options.path, scene, first, options.path_seconds).value(),
                       options.path_stops);
