@@ -21,6 +21,12 @@
 #include "lib/fragment_inputs.glsl"
 #include "lib/fog.glsl"
 
+#include "lib/before_transmissive.glsl"
+
+#ifdef FROXEL_TRANSMISSION
+#include "lib/transmission.glsl"
+#endif
+
 #ifdef FROXEL_PEELED
 #include "lib/peel.glsl"
 #endif
@@ -57,6 +63,18 @@ vec3 seen(vec3 lit, uvec2 pixel, float distance) {
     return lit;
 }
 
+#ifdef FROXEL_TRANSMISSION
+// What is behind is seen through all of the fog. What lies before the surface comes over it once
+// more, and is taken off.
+vec3 withoutFog(vec3 behind, uvec2 pixel, float distance) {
+    if (hasOutput(kOutputFog)) {
+        vec4 fog = fogBefore(pixel, distance);
+        behind = max(behind - fog.rgb, vec3(0.0)) / max(fog.a, 1e-6);
+    }
+    return behind;
+}
+#endif
+
 void main() {
     VertexData v = vertexData();
     vec4 base = baseColor(v);
@@ -64,7 +82,7 @@ void main() {
     float distance = distanceFromDepth(gl_FragCoord.z);
     vec3 position = positionFromDistance(pixel, distance);
     GbufferSample g = shadeMaterial(v, base, position, gl_FrontFacing);
-    if (maskedOut(base)) {
+    if (maskedOut(base) || !drawnNow(gl_FragCoord)) {
         discard;
     }
 #ifdef FROXEL_PEELED
@@ -89,6 +107,14 @@ void main() {
     addLayers(g.layers, s);
 #endif
     LightSum sum = sumLights(s, pixel, distance, true);
-    vec3 lit = surfaceRadiance(g, s, sum);
+    vec3 behind = vec3(0.0);
+#ifdef FROXEL_TRANSMISSION
+    vec3 left;
+    behind = seenBehind(s, g.layers.transmission, pixel, gl_FragCoord.z, left);
+    behind = withoutFog(behind, pixel, distance) * left;
+    sum.layers.through = min(sum.layers.through, kMostSum) * left;
+    sum.layers.through_grazing = min(sum.layers.through_grazing, kMostSum) * left;
+#endif
+    vec3 lit = surfaceRadiance(g, s, sum, behind);
     store(seen(lit, pixel, distance), alpha, distance);
 }

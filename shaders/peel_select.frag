@@ -4,6 +4,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "lib/frame.glsl"
+#include "lib/before_transmissive.glsl"
 #include "lib/peel.glsl"
 
 #ifndef FROXEL_COUNT
@@ -12,7 +14,7 @@ layout(location = 0) out uvec2 selected;
 
 void main() {
     uvec2 key = peelKey();
-    if (!waitsForItsLayer(key)) {
+    if (!waitsForItsLayer(key) || !drawnNow(gl_FragCoord)) {
         discard;
     }
 #ifdef FROXEL_COUNT

@@ -77,6 +77,16 @@ constexpr MaterialFactor kVolumeFactors[] = {
      [](Material& m) { return three(m.volume.attenuation_color); }}};
 constexpr MaterialTexture kVolumeTextures[] = {{"thicknessTexture", io::thickness_slot}};
 
+constexpr MaterialFactor kTransmissionFactors[] = {
+    {"transmissionFactor", FactorRange::kUnit,
+     [](Material& m) { return one(m.transmission.strength); }}};
+constexpr MaterialTexture kTransmissionTextures[] = {
+    {"transmissionTexture", io::transmission_slot}};
+
+constexpr MaterialFactor kDispersionFactors[] = {
+    {"dispersion", FactorRange::kFromZero,
+     [](Material& m) { return one(m.transmission.dispersion); }}};
+
 constexpr MaterialExtension kRows[] = {
     {.name = kUnlit, .what = "a colour that light does not change"},
     {.name = kEmissiveStrength, .what = "emission brighter than 1"},
@@ -116,8 +126,20 @@ constexpr MaterialExtension kRows[] = {
      .factors = kDiffuseTransmissionFactors,
      .textures = kDiffuseTransmissionTextures,
      .present = [](const Material& m) { return m.diffuse_transmission.strength != 0; }},
+    {.name = "KHR_materials_transmission",
+     .what = "light that passes a surface, as through glass",
+     .factors = kTransmissionFactors,
+     .textures = kTransmissionTextures,
+     .present = [](const Material& m) { return m.transmission.strength != 0; }},
+    {.name = "KHR_materials_dispersion",
+     .what = "colours that glass bends by different angles",
+     .factors = kDispersionFactors,
+     .present =
+         [](const Material& m) {
+             return m.transmission.strength != 0 && m.transmission.dispersion != 0;
+         }},
     {.name = "KHR_materials_volume",
-     .what = "a body that dims this transmitted light",
+     .what = "a body that bends and dims transmitted light",
      .factors = kVolumeFactors,
      .textures = kVolumeTextures,
      .present = [](const Material& m) { return m.volume.thickness_m != 0; }},

@@ -89,6 +89,27 @@ glm::dvec3 fromAround(const Surface& s, const Model& model, const Around& around
     return glm::mix(plain, seen(filmed(s.dielectric_f0), filmed(s.base_color)), s.film.strength);
 }
 
+namespace {
+
+environment::Albedo albedoOf(const Surface& s) {
+    return environment::albedoFromTable(
+        std::max(std::abs(glm::dot(s.normal, s.to_eye)), kLeastCosine),
+        std::max(s.roughness, kLeastRoughness));
+}
+
+} // namespace
+
+glm::dvec3 dielectricAround(const Surface& s) {
+    return reflectedShare(s.dielectric_f0, s.dielectric_f90, albedoOf(s));
+}
+
+glm::dvec3 filmedAround(const Surface& s) {
+    const double n_dot_v = std::max(std::abs(glm::dot(s.normal, s.to_eye)), kLeastCosine);
+    const glm::dvec3 f = filmReflects(s.film, s.dielectric_f0, n_dot_v);
+    const double all = albedoOf(s).all;
+    return f * all * (1.0 + f * (1 / all - 1));
+}
+
 glm::dvec3 coatAround(const Surface& s, const Around& around) {
     const double roughness = std::max(s.coat.roughness, kLeastRoughness);
     const double n_dot_v = std::max(std::abs(glm::dot(s.coat.normal, s.to_eye)), kLeastCosine);

@@ -20,6 +20,10 @@ radianceFrom(const Around& around, const glm::dvec3& direction, double roughness
 [[nodiscard]] glm::dvec3
 fromAround(const Surface& surface, const Model& model, const Around& around);
 
+// What its lobe's dielectric part reflects in all, bare and under its film.
+[[nodiscard]] glm::dvec3 dielectricAround(const Surface& surface);
+[[nodiscard]] glm::dvec3 filmedAround(const Surface& surface);
+
 // What its coat reflects of it, of a share of 1: once, as of lights.
 [[nodiscard]] glm::dvec3 coatAround(const Surface& surface, const Around& around);
 

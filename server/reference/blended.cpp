@@ -53,7 +53,7 @@ BlendedSurfaces::BlendedSurfaces(const scene::Scene& scene,
         const auto& primitives = scene.meshes[scene.instances[i].mesh].primitives;
         for (uint32_t p = 0; p < primitives.size(); ++p) {
             const auto& material = scene.materials[primitives[p].material];
-            if (material.alpha_mode != scene::AlphaMode::kBlend) {
+            if (material.alpha_mode != scene::AlphaMode::kBlend && !transmits(material)) {
                 continue;
             }
             for (uint32_t t = 0; 3 * size_t{t} < primitives[p].indices.size(); ++t) {

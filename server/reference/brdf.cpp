@@ -97,10 +97,11 @@ glm::dvec3 coatAmbient(const Surface& s, const Lights& lights) {
 glm::dvec3
 scattered(const Surface& s, const Model& model, const glm::dvec3& ahead, const glm::dvec3& behind) {
     const glm::dvec3 plain = s.base_color * ahead;
-    return model.shading == settings::ShadingModel::kLambert
-               ? plain
-               : glm::mix(plain, s.diffuse_transmission.color * behind,
-                          s.diffuse_transmission.strength);
+    const glm::dvec3 all = model.shading == settings::ShadingModel::kLambert
+                               ? plain
+                               : glm::mix(plain, s.diffuse_transmission.color * behind,
+                                          s.diffuse_transmission.strength);
+    return all * (1 - s.transmission.strength);
 }
 
 bool isStretched(const Surface& s, const Model& model) {
@@ -121,6 +122,33 @@ namespace {
 
 double ramped(const Model& model, double facing) {
     return model.ramp != nullptr ? toonRamp(*model.ramp, facing) : facing;
+}
+
+glm::dvec3 halfOf(const glm::dvec3& a, const glm::dvec3& b) {
+    const double length = glm::length(a + b);
+    return length > 0 ? (a + b) / length : glm::dvec3(0);
+}
+
+// The eye as the surface's other side sees it: what passes the surface is what that would mirror.
+glm::dvec3 mirroredEye(const Surface& s) {
+    return s.to_eye - 2.0 * glm::dot(s.normal, s.to_eye) * s.normal;
+}
+
+// A lobe of the other side, times its cosine, as an eye that is mirrored there sees it.
+double throughLobe(const Surface& s,
+                   const Model& model,
+                   const glm::dvec3& mirrored,
+                   const glm::dvec3& to_light) {
+    const double facing = -glm::dot(s.normal, to_light);
+    return facing > 0 && s.transmission.strength > 0
+               ? facing * lobeOf(model, -s.normal, s.transmission.roughness, mirrored,
+                                 halfOf(to_light, mirrored), facing)
+               : 0;
+}
+
+// What passes a dielectric of what arrives from behind.
+glm::dvec3 passing(const Surface& s, double lobe) {
+    return s.base_color * s.transmission.left * (s.transmission.strength * lobe);
 }
 
 // What a surface that is all under its film sends: what it scatters and a lobe, both before
@@ -145,7 +173,9 @@ class Banded {
         whole_ += irradiance;
         addTo(base_, s_.normal, to_light, irradiance,
               [&](double facing) { return baseLobe(s_, model_, to_light, facing); });
-        addTo(behind_, -s_.normal, to_light, irradiance, [](double) { return 0.0; });
+        const glm::dvec3 mirrored = mirroredEye(s_);
+        addTo(behind_, -s_.normal, to_light, irradiance,
+              [&](double facing) { return throughLobe(s_, model_, mirrored, to_light) / facing; });
         addTo(coat_, s_.coat.normal, to_light, irradiance, [&](double facing) {
             return lobeOf(model_, s_.coat.normal, s_.coat.roughness, s_.to_eye, half, facing);
         });
@@ -164,8 +194,15 @@ class Banded {
         const double shine = gloss(base_, baseAlpha()) * light;
         glm::dvec3 below =
             matt * ((1 - greatest(s_.dielectric_f0)) * (1 - s_.metallic)) + f0 * shine;
+        const glm::dvec3 through =
+            (1 - s_.metallic) *
+            passing(s_, gloss(behind_, alphaOf(s_.transmission.roughness)) * behind);
+        below += through * (1 - greatest(s_.dielectric_f0));
         if (hasFilm(s_, model_)) {
-            below = glm::mix(below, underFilm(s_, matt, glm::dvec3(shine)), s_.film.strength);
+            const double enters =
+                1 - greatest(filmReflects(s_.film, s_.dielectric_f0, cosineToEye(s_)));
+            below = glm::mix(below, underFilm(s_, matt, glm::dvec3(shine)) + through * enters,
+                             s_.film.strength);
         }
         if (hasSheen(s_, model_)) { // its fibres scatter as matt surfaces do
             below = below * belowSheen(s_.sheen, cosineToEye(s_)) +
@@ -222,11 +259,6 @@ class Banded {
 
 namespace {
 
-glm::dvec3 halfOf(const glm::dvec3& a, const glm::dvec3& b) {
-    const double length = glm::length(a + b);
-    return length > 0 ? (a + b) / length : glm::dvec3(0);
-}
-
 double edgeOf(const glm::dvec3& to_eye, const glm::dvec3& to_light) {
     const glm::dvec3 half = halfOf(to_light, to_eye);
     return lobes::fifth(std::max(0.0, 1 - std::abs(glm::dot(to_eye, half))));
@@ -244,7 +276,7 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     const double behind =
         rimShare(s, model) * kInvPi * ramped(model, std::max(0.0, -glm::dot(s.normal, to_light)));
     if (model.shading == settings::ShadingModel::kLambert) {
-        return s.base_color * ahead;
+        return s.base_color * (ahead * (1 - s.transmission.strength));
     }
     const glm::dvec3 half = halfOf(to_light, s.to_eye);
     const double edge = edgeOf(s.to_eye, to_light);
@@ -252,18 +284,23 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     const glm::dvec3 of_metal = s.base_color + (1.0 - s.base_color) * edge;
     // KHR_materials_diffuse_transmission leaves Fresnel's term open: an eye mirrored to the other
     // side makes the way there and back the same.
-    const glm::dvec3 mirrored = s.to_eye - 2.0 * glm::dot(s.normal, s.to_eye) * s.normal;
+    const glm::dvec3 mirrored = mirroredEye(s);
     const double enters_behind = 1 - greatest(dielectricAt(s, edgeOf(mirrored, to_light)));
     // Appendix B: both models are whole, and metalness mixes what they give. A dielectric scatters
     // what the strongest reflected channel leaves (KHR_materials_specular).
     glm::dvec3 out =
         (1 - s.metallic) * scattered(s, model, glm::dvec3((1 - greatest(of_dielectric)) * ahead),
                                      glm::dvec3(enters_behind * behind));
+    const glm::dvec3 through =
+        (1 - s.metallic) * passing(s, throughLobe(s, model, mirrored, to_light));
+    out += through * enters_behind;
     const double lobe = facing > 0 ? facing * baseLobe(s, model, to_light, facing) : 0;
     out += glm::mix(of_dielectric, of_metal, s.metallic) * lobe;
     if (hasFilm(s, model)) {
         const glm::dvec3 matt = scattered(s, model, glm::dvec3(ahead), glm::dvec3(behind));
-        out = glm::mix(out, underFilm(s, matt, glm::dvec3(lobe)), s.film.strength);
+        const double enters = 1 - greatest(filmReflects(s.film, s.dielectric_f0, cosineToEye(s)));
+        out =
+            glm::mix(out, underFilm(s, matt, glm::dvec3(lobe)) + through * enters, s.film.strength);
     }
     if (hasSheen(s, model)) {
         const double n_dot_v = cosineToEye(s);
@@ -333,7 +370,33 @@ glm::dvec3 fromDirection(const Surface& s,
     return banded.reflected(middle);
 }
 
-glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights, const Open& open) {
+namespace {
+
+// What is seen through a surface, by Fresnel's term of the eye's angle: of its lobe where light
+// comes from around, else of its normal.
+glm::dvec3
+transmitted(const Surface& s, const Model& model, const Lights& lights, const glm::dvec3& seen) {
+    const glm::dvec3 all = passing(s, 1) * seen;
+    if (model.shading == settings::ShadingModel::kLambert) {
+        return all;
+    }
+    const double film =
+        1 - greatest(lights.around ? filmedAround(s)
+                                   : filmReflects(s.film, s.dielectric_f0, cosineToEye(s)));
+    const double plain =
+        1 - greatest(lights.around ? dielectricAround(s)
+                                   : dielectricAt(s, lobes::fifth(1 - cosineToEye(s))));
+    return all *
+           ((1 - s.metallic) * std::lerp(plain, film, hasFilm(s, model) ? s.film.strength : 0));
+}
+
+} // namespace
+
+glm::dvec3 radiance(const Surface& s,
+                    const Model& model,
+                    const Lights& lights,
+                    const Open& open,
+                    const glm::dvec3& seen) {
     if (s.unlit) {
         return s.base_color;
     }
@@ -356,6 +419,9 @@ glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights, 
     }
     glm::dvec3 all_around =
         lights.around ? fromAround(s, model, *lights.around) : ambient(s, model, lights);
+    if (s.transmission.strength > 0) {
+        all_around += transmitted(s, model, lights, seen);
+    }
     if (hasSheen(s, model)) {
         const double n_dot_v = cosineToEye(s);
         const glm::dvec3 matt = lights.around

@@ -30,6 +30,17 @@ struct DiffuseTransmission {
     glm::dvec3 color{1}; // dimmed by the body behind
 };
 
+// Light that passes the surface as through glass.
+struct Transmission {
+    double strength = 0;
+    double roughness = 0; // of what is seen through it
+    double ior = 1.5;
+    double dispersion = 0;     // 20 over Abbe's number
+    double thickness = 0;      // in object space
+    glm::dvec3 attenuation{1}; // what a metre in the body leaves of white light
+    glm::dvec3 left{1};        // what all the way through it leaves, which its user finds out
+};
+
 // Everything is in the world's axes; `position` is relative to the eye.
 struct Surface {
     glm::dvec3 position{0};
@@ -47,6 +58,7 @@ struct Surface {
     Anisotropy anisotropy;
     Film film;
     DiffuseTransmission diffuse_transmission;
+    Transmission transmission;
     double alpha = 1;
     bool unlit = false;
 };
@@ -84,8 +96,11 @@ reflected(const Surface& surface, const Model& model, const glm::dvec3& to_light
 [[nodiscard]] double attenuation(const PointLight& light, const glm::dvec3& to_light);
 
 // All lights, light from around or the ambient light, and emission; of an unlit surface its base
-// colour. open: of shadowed lights.
-[[nodiscard]] glm::dvec3
-radiance(const Surface& surface, const Model& model, const Lights& lights, const Open& open = {});
+// colour. open: of shadowed lights. seen: what arrives from behind a surface that transmits light.
+[[nodiscard]] glm::dvec3 radiance(const Surface& surface,
+                                  const Model& model,
+                                  const Lights& lights,
+                                  const Open& open = {},
+                                  const glm::dvec3& seen = glm::dvec3(0));
 
 } // namespace froxel::reference

@@ -80,18 +80,17 @@ placedTriangle(const Placement& placement, const scene::Primitive& primitive, ui
             placement.from_object * (object[2] - object[0])};
 }
 
-SurfacePoint surfaceAt(const PixelRays& rays,
-                       const PixelHit& hit,
-                       const Placement& placement,
-                       const scene::Primitive& primitive,
-                       uint32_t triangle) {
+SurfacePoint surfaceAlong(const Ray& ray,
+                          const glm::dvec2& weights,
+                          const Placement& placement,
+                          const scene::Primitive& primitive,
+                          uint32_t triangle) {
     SurfacePoint p;
     p.triangle = placedTriangle(placement, primitive, triangle);
-    const Ray ray = rays.through(hit.x, hit.y);
-    p.weights = clampToTriangle(hit.point.weights);
+    p.weights = weights;
     p.position =
         p.triangle.corner + p.triangle.edge1 * p.weights.x + p.triangle.edge2 * p.weights.y;
-    p.to_eye = glm::normalize(rays.parallel() ? -ray.direction : -p.position);
+    p.to_eye = glm::normalize(-ray.direction);
     const glm::dvec3 across = glm::cross(p.triangle.edge1, p.triangle.edge2) * placement.side;
     p.front = glm::dot(across, ray.direction) < 0;
     p.normal = unitOr(
@@ -105,9 +104,26 @@ SurfacePoint surfaceAt(const PixelRays& rays,
     }
     p.uv = {uvPlane(primitive.uv0, primitive, triangle),
             uvPlane(primitive.uv1, primitive, triangle)};
+    return p;
+}
+
+SurfacePoint surfaceAt(const PixelRays& rays,
+                       const PixelHit& hit,
+                       const Placement& placement,
+                       const scene::Primitive& primitive,
+                       uint32_t triangle) {
+    const Ray ray = rays.through(hit.x, hit.y);
+    SurfacePoint p =
+        surfaceAlong(ray, clampToTriangle(hit.point.weights), placement, primitive, triangle);
+    p.to_eye = glm::normalize(rays.parallel() ? -ray.direction : -p.position);
     p.weights_dx = weightsChange(rays, p.triangle, hit, {1, 0});
     p.weights_dy = weightsChange(rays, p.triangle, hit, {0, 1});
     return p;
+}
+
+bool transmits(const scene::Material& m) {
+    const bool metal = m.metallic == 1 && m.metallic_roughness_texture.texture == scene::kNone;
+    return m.transmission.strength > 0 && !m.unlit && !metal;
 }
 
 } // namespace froxel::reference

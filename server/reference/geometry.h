@@ -2,9 +2,12 @@
 #pragma once
 
 #include "reference/rays.h"
+#include "reference/tree.h"
 #include "scene/scene.h"
 
 #include <array>
+#include <span>
+#include <vector>
 
 namespace froxel::reference {
 
@@ -61,5 +64,34 @@ struct PixelHit {
                                      const Placement& placement,
                                      const scene::Primitive& primitive,
                                      uint32_t triangle);
+
+// Where any ray meets a triangle: as by its pixel's, but that textures are looked up at a point.
+[[nodiscard]] SurfacePoint surfaceAlong(const Ray& ray,
+                                        const glm::dvec2& weights,
+                                        const Placement& placement,
+                                        const scene::Primitive& primitive,
+                                        uint32_t triangle);
+
+// Whether light passes a material as through glass: all of a metal's is stopped.
+[[nodiscard]] bool transmits(const scene::Material& material);
+
+// The triangles whose materials `takes`.
+template <class Takes>
+[[nodiscard]] std::vector<TreeTriangle>
+trianglesOf(const scene::Scene& scene, std::span<const Placement> placements, Takes takes) {
+    std::vector<TreeTriangle> all;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const auto& primitives = scene.meshes[scene.instances[i].mesh].primitives;
+        for (uint32_t p = 0; p < primitives.size(); ++p) {
+            if (!takes(scene.materials[primitives[p].material])) {
+                continue;
+            }
+            for (uint32_t t = 0; 3 * size_t{t} < primitives[p].indices.size(); ++t) {
+                all.push_back({i, p, t, placedTriangle(placements[i], primitives[p], t)});
+            }
+        }
+    }
+    return all;
+}
 
 } // namespace froxel::reference

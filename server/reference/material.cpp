@@ -62,6 +62,22 @@ TangentFrame tangentFrame(const SurfacePoint& p, const scene::TextureSlot& slot)
     return frame;
 }
 
+// strength, thickness: shares of the material's, from textures.
+Transmission
+transmissionOf(const scene::Material& m, double roughness, double strength, double thickness) {
+    const double ior = m.ior == 0 ? 1e6 : static_cast<double>(m.ior); // infinite
+    Transmission t{.strength = static_cast<double>(m.transmission.strength) * strength,
+                   .roughness = roughness * std::clamp(2 * ior - 2, 0.0, 1.0),
+                   .ior = ior,
+                   .dispersion = static_cast<double>(m.transmission.dispersion),
+                   .thickness = static_cast<double>(m.volume.thickness_m) * thickness};
+    if (m.volume.attenuation_m > 0) {
+        t.attenuation = glm::pow(glm::dvec3(m.volume.attenuation_color),
+                                 glm::dvec3(1 / static_cast<double>(m.volume.attenuation_m)));
+    }
+    return t;
+}
+
 } // namespace
 
 Materials::Materials(const scene::Scene& scene,
@@ -157,6 +173,25 @@ double Materials::alpha(uint32_t material, const SurfacePoint& point) const {
            sample(looks_.at(material)[io::base_color_slot], point).w * point.color.w;
 }
 
+void Materials::addLayers(const scene::Material& m,
+                          const Look& look,
+                          const SurfacePoint& point,
+                          Surface& s) const {
+    s.coat.strength = static_cast<double>(m.coat.strength) * sample(look[io::coat_slot], point).x;
+    s.coat.roughness =
+        static_cast<double>(m.coat.roughness) * sample(look[io::coat_roughness_slot], point).y;
+    s.coat.normal = normalAt(m, look[io::coat_normal_slot], m.coat.normal_scale, point);
+    s.sheen.color =
+        glm::dvec3(m.sheen.color) * glm::dvec3(sample(look[io::sheen_color_slot], point));
+    s.sheen.roughness =
+        static_cast<double>(m.sheen.roughness) * sample(look[io::sheen_roughness_slot], point).w;
+    s.film.strength = static_cast<double>(m.film.strength) * sample(look[io::film_slot], point).x;
+    s.film.ior = static_cast<double>(m.film.ior);
+    s.film.thickness_nm =
+        std::lerp(static_cast<double>(m.film.least_nm), static_cast<double>(m.film.most_nm),
+                  sample(look[io::film_thickness_slot], point).y);
+}
+
 Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
     const scene::Material& m = scene_.materials[material];
     const Look& look = looks_.at(material);
@@ -186,19 +221,7 @@ Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
     if (m.glossiness_texture) {
         s.roughness = 1 - (1 - static_cast<double>(m.roughness)) * specular_color.w;
     }
-    s.coat.strength = static_cast<double>(m.coat.strength) * sample(look[io::coat_slot], point).x;
-    s.coat.roughness =
-        static_cast<double>(m.coat.roughness) * sample(look[io::coat_roughness_slot], point).y;
-    s.coat.normal = normalAt(m, look[io::coat_normal_slot], m.coat.normal_scale, point);
-    s.sheen.color =
-        glm::dvec3(m.sheen.color) * glm::dvec3(sample(look[io::sheen_color_slot], point));
-    s.sheen.roughness =
-        static_cast<double>(m.sheen.roughness) * sample(look[io::sheen_roughness_slot], point).w;
-    s.film.strength = static_cast<double>(m.film.strength) * sample(look[io::film_slot], point).x;
-    s.film.ior = static_cast<double>(m.film.ior);
-    s.film.thickness_nm =
-        std::lerp(static_cast<double>(m.film.least_nm), static_cast<double>(m.film.most_nm),
-                  sample(look[io::film_thickness_slot], point).y);
+    addLayers(m, look, point, s);
     s.diffuse_transmission = {
         static_cast<double>(m.diffuse_transmission.strength) *
             sample(look[io::diffuse_transmission_slot], point).w,
@@ -210,6 +233,11 @@ Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
                             static_cast<double>(m.volume.attenuation_m);
         s.diffuse_transmission.color *=
             glm::pow(glm::dvec3(m.volume.attenuation_color), glm::dvec3(ways));
+    }
+    if (transmits(m)) {
+        s.transmission =
+            transmissionOf(m, s.roughness, sample(look[io::transmission_slot], point).x,
+                           sample(look[io::thickness_slot], point).y);
     }
     if (m.anisotropy.strength > 0) {
         s.anisotropy = anisotropyAt(m, look[io::anisotropy_slot], point);

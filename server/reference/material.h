@@ -42,6 +42,12 @@ class Materials {
                                       float scale,
                                       const SurfacePoint& point) const;
 
+    // Its coat, its sheen and its film.
+    void addLayers(const scene::Material& material,
+                   const Look& look,
+                   const SurfacePoint& point,
+                   Surface& surface) const;
+
     // Where highlights are longer, on the shape's surface.
     [[nodiscard]] Anisotropy
     anisotropyAt(const scene::Material& material, const Slot& map, const SurfacePoint& point) const;

@@ -3,6 +3,7 @@
 
 #include "reference/geometry.h"
 #include "reference/material.h"
+#include "reference/tree.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -12,9 +13,9 @@
 namespace froxel::reference {
 
 // The triangles that cast shadows: opaque ones and the uncut part of masked ones (by the texture's
-// base level), from both sides; not blended ones, nor those of materials with an emissive factor
-// and no emissive texture. Immutable: any number of threads may ask. Keeps references to all it is
-// given.
+// base level), from both sides; not blended ones, nor those that transmit light or whose materials
+// have with an emissive factor and no emissive texture. Immutable: any number of threads may ask.
+// Keeps references to all it is given.
 class Occluders {
   public:
     Occluders(const scene::Scene& scene,
@@ -26,29 +27,13 @@ class Occluders {
     [[nodiscard]] bool between(const glm::dvec3& from, const glm::dvec3& to) const;
 
   private:
-    struct Caster {
-        uint32_t instance = 0;
-        uint32_t primitive = 0;
-        uint32_t triangle = 0;
-        Triangle placed;
-    };
-    // A box around casters [first, first + count), or around two children.
-    struct Node {
-        BoundsD3 box;
-        uint32_t first = 0;
-        uint32_t count = 0; // 0: inner
-        uint32_t right = 0; // of an inner node; the left child comes next
-    };
-
-    void add(uint32_t instance, uint32_t primitive);
-    void build(uint32_t first, uint32_t count);
-    [[nodiscard]] bool blocks(const Caster& caster, const Ray& ray) const;
+    [[nodiscard]] std::vector<TreeTriangle> casters() const;
+    [[nodiscard]] bool blocks(const TreeTriangle& caster, const Ray& ray) const;
 
     const scene::Scene& scene_;
     std::span<const Placement> placements_;
     const Materials& materials_;
-    std::vector<Caster> casters_;
-    std::vector<Node> nodes_;
+    TriangleTree tree_;
 };
 
 } // namespace froxel::reference

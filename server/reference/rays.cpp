@@ -13,9 +13,8 @@ PixelRays::PixelRays(const settings::Camera& camera, const settings::Size& size)
     half_extent_ = {half_height * size_px_.x / size_px_.y, half_height};
 }
 
-Ray PixelRays::through(int64_t x, int64_t y) const {
-    const glm::dvec2 from_middle((static_cast<double>(x) + 0.5) / size_px_.x * 2 - 1,
-                                 1 - (static_cast<double>(y) + 0.5) / size_px_.y * 2);
+Ray PixelRays::through(const glm::dvec2& pixels) const {
+    const glm::dvec2 from_middle(pixels.x / size_px_.x * 2 - 1, 1 - pixels.y / size_px_.y * 2);
     const glm::dvec2 at = (from_middle + shift_) * half_extent_;
     if (parallel_) {
         return {world_from_view_ * glm::dvec3(at, 0), -world_from_view_[2]};

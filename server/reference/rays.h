@@ -17,7 +17,11 @@ class PixelRays {
     PixelRays(const settings::Camera& camera, const settings::Size& size);
 
     // Through the centre of a pixel, which need not lie inside the picture.
-    [[nodiscard]] Ray through(int64_t x, int64_t y) const;
+    [[nodiscard]] Ray through(int64_t x, int64_t y) const {
+        return through(glm::dvec2(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5));
+    }
+    // Likewise, in pixels from the picture's top left corner.
+    [[nodiscard]] Ray through(const glm::dvec2& at) const;
     // Pixels of a point ahead of the eye plane, from the picture's top left corner; `along` is its
     // distance along the view axis.
     [[nodiscard]] glm::dvec2 project(const glm::dvec3& point, double& along) const;

@@ -16,14 +16,23 @@ namespace froxel::reference {
 using froxel::Visibility;
 using froxel::VisibleTriangle;
 
+// How far light's way through a surface that transmits it is followed. To its exit: it is bent as
+// it enters, goes as far as the material says, and is seen from the eye where it then is, as
+// renderers have it; where it is scattered, it goes on from there in the directions of its lobe.
+// Through the mesh: to its other sides, with all refractions and total reflections.
+enum class LightWay : uint8_t { kToExit, kThroughMesh };
+
 // Shades every pixel with every light of `settings` at `time_s` (the lights' clock), by the
 // renderer and the shading model that `settings` name. Grids, lists, stages and layouts do not
 // matter, nor how shadow maps are made: a ray says whether a light with shadows arrives; and what
 // trades error for speed (a G-buffer layout, a lights' cut-off) is left out, so that it is priced.
 // The ray through the pixel's centre meets the plane of the stated triangle in double (kPlaneGoesOn
 // in rays.h says what holds for centres just outside it). Blended triangles are found by ray here
-// and sorted pixel by pixel; over an unlit surface they are mixed as the display shows them, by the
-// exposure of the settings. Runs on every hardware thread. `scene` is only read.
+// and sorted pixel by pixel, as those that transmit light are; what is seen through these is traced
+// as `way` says, without limits of a picture, without a limit of layers, and its textures are
+// looked up without a footprint where a lobe scatters it; over an unlit surface they are mixed as
+// the display shows them, by the exposure of the settings. Runs on every hardware thread. `scene`
+// is only read.
 //
 // Stated model, besides glTF 2.0 with KHR_lights_punctual, KHR_materials_unlit, _ior, _specular and
 // _clearcoat and KHR_texture_transform: visibility is height-correlated Smith (Heitz 2014);
@@ -36,6 +45,7 @@ using froxel::VisibleTriangle;
 [[nodiscard]] Result<LinearImage> shade(const scene::Scene& scene,
                                         const settings::ViewSettings& settings,
                                         double time_s,
-                                        const Visibility& visibility);
+                                        const Visibility& visibility,
+                                        LightWay way = LightWay::kToExit);
 
 } // namespace froxel::reference

@@ -28,12 +28,13 @@ FROXEL_CONST uint kMaterialSheen = 1U << 10;               // fibres over it, be
 FROXEL_CONST uint kMaterialAnisotropy = 1U << 11;          // highlights of two roughnesses
 FROXEL_CONST uint kMaterialFilm = 1U << 12;                // iridescence
 FROXEL_CONST uint kMaterialDiffuseTransmission = 1U << 13; // light comes through it, scattered
+FROXEL_CONST uint kMaterialTransmission = 1U << 15; // light comes through it, as through glass
 // Of the device, not of a material: lib/fragment_material.glsl takes gradients by itself.
 FROXEL_CONST uint kMaterialGradients = 1U << 14;
 // Layers, of which lights add up what each reflects; and what else the G-buffer has no room for.
 // The shaders of FROXEL_LAYERED alone know them.
 FROXEL_CONST uint kMaterialLitLayers =
-    kMaterialCoat | kMaterialSheen | kMaterialDiffuseTransmission;
+    kMaterialCoat | kMaterialSheen | kMaterialDiffuseTransmission | kMaterialTransmission;
 FROXEL_CONST uint kMaterialLayers = kMaterialLitLayers | kMaterialAnisotropy | kMaterialFilm;
 
 // Light flags: which lights a frame has and how they are looped over.
@@ -71,6 +72,10 @@ FROXEL_CONST uint kOutputWideGbuffer = 1U << 2; // metalness, occlusion, emissio
 FROXEL_CONST uint kOutputClamp = 1U << 3;       // plain clamp instead of the neutral tone map
 FROXEL_CONST uint kOutputDepth = 1U << 4;       // the resolve replaces depths by those of planes
 FROXEL_CONST uint kOutputSamples = 1U << 5;     // the tone map's pixel is the mean of 2 x 2 samples
+
+// Of blended surfaces where others transmit light: those behind the nearest of these, or the rest.
+FROXEL_CONST uint kOutputBehindTransmissive = 1U << 6;
+FROXEL_CONST uint kOutputBeforeTransmissive = 1U << 7;
 
 FROXEL_CONST float kPi = 3.14159265358979F;
 FROXEL_CONST float kLeastSheenRoughness = 0.07F;

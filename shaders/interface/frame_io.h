@@ -96,13 +96,17 @@ struct Material {
     float alpha_cutoff;
     vec3 specular_f0; // what the index of refraction gives head-on, times the specular colour
     float specular;   // its strength
+    float ior;        // 1 and more
+    float padding0;
+    float padding1;
+    float padding2;
 #define FROXEL_MEMBER(type, name) type name;
     FROXEL_MATERIAL_FACTORS(FROXEL_MEMBER)
 #undef FROXEL_MEMBER
     UvTransform uv[kMaterialSlots];
 };
 #define FROXEL_BYTES(type, name) +sizeof(type)
-FROXEL_SIZE_ASSERT(Material, 64 FROXEL_MATERIAL_FACTORS(FROXEL_BYTES) + 32 * kMaterialSlots);
+FROXEL_SIZE_ASSERT(Material, 80 FROXEL_MATERIAL_FACTORS(FROXEL_BYTES) + 32 * kMaterialSlots);
 #undef FROXEL_BYTES
 
 FROXEL_IO_NAMESPACE_END

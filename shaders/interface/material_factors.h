@@ -11,7 +11,8 @@
     X(AnisotropyFactors, anisotropy)                                                               \
     X(FilmFactors, film)                                                                           \
     X(DiffuseTransmissionFactors, diffuse_transmission)                                            \
-    X(VolumeFactors, volume)
+    X(VolumeFactors, volume)                                                                       \
+    X(TransmissionFactors, transmission)
 
 FROXEL_IO_NAMESPACE_BEGIN
 
@@ -57,7 +58,7 @@ struct DiffuseTransmissionFactors {
 };
 FROXEL_SIZE_ASSERT(DiffuseTransmissionFactors, 16);
 
-// The body behind a surface, which dims what comes through it.
+// The body behind a surface, which bends and dims what comes through it.
 struct VolumeFactors {
     vec3 attenuation_color FROXEL_USUAL(1); // 0..1, of white light after
     float attenuation_m FROXEL_USUAL(0);    // this way; 0: nothing is dimmed
@@ -67,6 +68,16 @@ struct VolumeFactors {
     float padding2 FROXEL_USUAL(0);
 };
 FROXEL_SIZE_ASSERT(VolumeFactors, 32);
+
+// Light from behind that passes a surface as through glass, in place of as much of what its base
+// colour scatters.
+struct TransmissionFactors {
+    float strength FROXEL_USUAL(0);   // 0..1; 0: none
+    float dispersion FROXEL_USUAL(0); // 20 over Abbe's number; 0: all colours are bent alike
+    float padding0 FROXEL_USUAL(0);
+    float padding1 FROXEL_USUAL(0);
+};
+FROXEL_SIZE_ASSERT(TransmissionFactors, 16);
 
 FROXEL_IO_NAMESPACE_END
 

@@ -27,7 +27,8 @@
     X(14, film_thickness, 0)       /* G */                                                         \
     X(15, diffuse_transmission, 0) /* A: strength */                                               \
     X(16, diffuse_transmission_color, 1)                                                           \
-    X(17, thickness, 0) /* G */
+    X(17, thickness, 0)    /* G */                                                                 \
+    X(18, transmission, 0) /* R: strength */
 #define FROXEL_MATERIAL_SLOTS(X)                                                                   \
     FROXEL_SURFACE_SLOTS(X)                                                                        \
     FROXEL_LAYER_SLOTS(X)
@@ -39,7 +40,7 @@ FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)
 #undef FROXEL_SLOT
 
 FROXEL_CONST uint kSurfaceSlots = 7U;
-FROXEL_CONST uint kMaterialSlots = 18U;
+FROXEL_CONST uint kMaterialSlots = 19U;
 
 FROXEL_IO_NAMESPACE_END
 

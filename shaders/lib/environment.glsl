@@ -53,6 +53,9 @@ vec3 environmentRadiance(Surface s, vec3 base_color, float metallic, Dielectric 
                          float occlusion) {
     precise vec3 normal = environment.map_from_view * s.normal_view;
     precise vec3 matt = mattRadiance(normal) * occlusion;
+    if (transmits()) {
+        matt *= scatteredShare(s);
+    }
     if (hasLight(kLightLambert)) {
         return base_color * matt;
     }
@@ -63,7 +66,7 @@ vec3 environmentRadiance(Surface s, vec3 base_color, float metallic, Dielectric 
     float entering = 1.0 - max(max(of_dielectric.r, of_dielectric.g), of_dielectric.b);
     precise vec3 scattered = base_color * ((1.0 - metallic) * entering) * matt;
     if (scattersLightFromBehind()) {
-        vec3 behind = mattRadiance(-normal) * occlusion;
+        vec3 behind = mattRadiance(-normal) * (occlusion * scatteredShare(s));
         scattered =
             withLightFromBehind(s, base_color * matt, behind) * ((1.0 - metallic) * entering);
     }

@@ -9,12 +9,47 @@
 #include "lib/film.glsl"
 #include "lib/sheen.glsl"
 
+// Light that passes the surface as through glass (lib/transmission.glsl).
+struct Transmission {
+    float strength;
+    float roughness; // of what is seen through it
+    float ior;
+    float dispersion;
+    float thickness; // of the body, in object space; 0: a thin wall
+    vec3 attenuation_color;
+    float attenuation_m; // 0: the body dims nothing
+};
+
+// The shaders of FROXEL_TRANSMISSION alone draw such surfaces.
+#ifdef FROXEL_TRANSMISSION
+bool hasTransmission() { return hasMaterial(kMaterialTransmission); }
+#else
+bool hasTransmission() { return false; }
+#endif
+
+// Of what is seen through a surface of that roughness: as much less as the index of refraction is
+// below 1.5, so that what bends nothing blurs nothing.
+float transmittedRoughness(float roughness, float ior) {
+    return roughness * clamp(ior * 2.0 - 2.0, 0.0, 1.0);
+}
+
+Transmission noTransmission() { return Transmission(0.0, 0.0, 1.0, 0.0, 0.0, vec3(1.0), 0.0); }
+
 struct Layers {
     Coat coat;
     Sheen sheen;
     Anisotropy anisotropy;
     Film film;
     DiffuseTransmission diffuse_transmission;
+    Transmission transmission;
+};
+
+// A lobe of facets: members of Surface.
+struct LobeShape {
+    float alpha2;
+    float visibility_v;
+    float shininess;
+    float lobe;
 };
 
 struct LayerSurfaces {
@@ -25,6 +60,8 @@ struct LayerSurfaces {
     SheenSurface sheen;
     AnisotropySurface anisotropy;
     DiffuseTransmission diffuse_transmission;
+    float transmission;   // its strength
+    LobeShape through;    // of what is seen through it
     uvec4 shadows_behind; // as Surface::shadows, of its other side
 };
 
@@ -33,12 +70,16 @@ struct LayerSums {
     vec3 sheen;
     vec3 behind; // as LightSum's, of the other side
     vec3 behind_edge;
+    vec3 through; // of the other side's lights, seen through the surface
+    vec3 through_grazing;
 };
 
 Layers noLayers(vec3 normal_view) {
-    return Layers(noCoat(normal_view), noSheen(), noAnisotropy(), noFilm(),
-                  noDiffuseTransmission());
+    return Layers(noCoat(normal_view), noSheen(), noAnisotropy(), noFilm(), noDiffuseTransmission(),
+                  noTransmission());
 }
-LayerSums noLayerLight() { return LayerSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)); }
+LayerSums noLayerLight() {
+    return LayerSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+}
 #endif
 #endif

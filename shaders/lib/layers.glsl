@@ -18,6 +18,14 @@ void addLayers(Layers layers, inout Surface s) {
         s.layers.sheen = sheenSurface(layers.sheen, s.n_dot_v);
     }
     s.layers.diffuse_transmission = layers.diffuse_transmission;
+    s.layers.transmission = 0.0;
+    if (hasTransmission()) {
+        s.layers.transmission = layers.transmission.strength;
+        Surface through =
+            makeSurface(s.position_view, s.normal_view, layers.transmission.roughness);
+        s.layers.through =
+            LobeShape(through.alpha2, through.visibility_v, through.shininess, through.lobe);
+    }
     s.layers.shadows_behind = uvec4(0u); // found where lights are looped over
 }
 
@@ -40,13 +48,23 @@ Surface sheenOf(Surface s) {
     return s;
 }
 
-// Its other side as a surface by itself, whose eye is mirrored there.
+// Whether lights on the surface's other side are seen, scattered or through it.
+bool litFromBehind() { return hasDiffuseTransmission() || hasTransmission(); }
+
+// Its other side as a surface by itself, whose eye is mirrored there: so what passes it is what
+// facets there would mirror.
 Surface behindOf(Surface s) {
     s.layers.round = true;
     s.layers.behind = true;
     s.to_eye_view -= (2.0 * s.n_dot_eye) * s.normal_view;
     s.normal_view = -s.normal_view;
     s.shadows = s.layers.shadows_behind;
+    if (hasTransmission()) {
+        s.alpha2 = s.layers.through.alpha2;
+        s.visibility_v = s.layers.through.visibility_v;
+        s.shininess = s.layers.through.shininess;
+        s.lobe = s.layers.through.lobe;
+    }
     return s;
 }
 
@@ -94,7 +112,7 @@ Surface bentByAnisotropy(Surface s) {
     return s;
 }
 
-bool isBehind(Surface layer) { return hasDiffuseTransmission() && layer.layers.behind; }
+bool isBehind(Surface layer) { return litFromBehind() && layer.layers.behind; }
 
 bool scattersLightFromBehind() { return hasDiffuseTransmission(); }
 
@@ -104,6 +122,10 @@ vec3 withLightFromBehind(Surface s, vec3 scattered, vec3 behind) {
                             s.layers.diffuse_transmission.strength);
     return both;
 }
+
+// The share of light that is scattered, of what is neither reflected nor passes the surface.
+bool transmits() { return hasTransmission(); }
+float scatteredShare(Surface s) { return 1.0 - s.layers.transmission; }
 
 // What a light adds to a layer. Fresnel's term is the eye's, so its two parts are one.
 vec3 addLayerLight(LightSum of_layer, vec3 sum) {
@@ -125,12 +147,16 @@ vec3 addLayerLight(LightSum of_layer, vec3 sum) {
         add;                                                                                       \
         sum.layers.sheen = addLayerLight(of_layer, sum.layers.sheen);                              \
     }                                                                                              \
-    if (hasDiffuseTransmission()) {                                                                \
+    if (litFromBehind()) {                                                                         \
         Surface layer = behindOf(s);                                                               \
         LightSum of_layer = noLight();                                                             \
         add;                                                                                       \
         sum.layers.behind += of_layer.diffuse;                                                     \
         sum.layers.behind_edge += of_layer.edge;                                                   \
+        if (hasTransmission()) {                                                                   \
+            sum.layers.through += of_layer.specular;                                               \
+            sum.layers.through_grazing += of_layer.grazing;                                        \
+        }                                                                                          \
     }
 
 // What a rim scatters more.
@@ -147,11 +173,11 @@ void hideLayers(inout Surface s) { s.layers.coat.normal_view = vec3(0.0); }
 
 // Componentwise, of the surface's normal and its layers'.
 vec3 highestNormal(Surface s) {
-    vec3 other = hasDiffuseTransmission() ? -s.normal_view : s.normal_view;
+    vec3 other = litFromBehind() ? -s.normal_view : s.normal_view;
     return max(max(s.normal_view, other), s.layers.coat.normal_view);
 }
 vec3 lowestNormal(Surface s) {
-    vec3 other = hasDiffuseTransmission() ? -s.normal_view : s.normal_view;
+    vec3 other = litFromBehind() ? -s.normal_view : s.normal_view;
     return min(min(s.normal_view, other), s.layers.coat.normal_view);
 }
 
@@ -159,7 +185,7 @@ vec3 lowestNormal(Surface s) {
 vec3 largestOfLayers(vec3 own, Surface s, vec3 normal, vec3 from) {
     vec3 turn = s.layers.coat.normal_view - normal;
     own = max(own, vec3(dot(turn, turn), -dot(s.layers.coat.normal_view, from), 0.0));
-    if (hasDiffuseTransmission()) {
+    if (litFromBehind()) {
         turn = -s.normal_view - normal;
         own = max(own, vec3(dot(turn, turn), dot(s.normal_view, from), 0.0));
     }
@@ -175,6 +201,8 @@ float stretchedLobe(Surface s, vec3 l, float n_dot_sum, float h2, float facing) 
 Surface bentByAnisotropy(Surface s) { return s; }
 bool layersFace(Surface s, vec3 l) { return false; }
 bool scattersLightFromBehind() { return false; }
+bool transmits() { return false; }
+float scatteredShare(Surface s) { return 1.0; }
 vec3 withLightFromBehind(Surface s, vec3 scattered, vec3 behind) { return scattered; }
 void hideLayers(inout Surface s) {}
 vec3 highestNormal(Surface s) { return s.normal_view; }

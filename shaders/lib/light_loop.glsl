@@ -202,6 +202,9 @@ vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric diel
     }
     vec3 sky = skyRadiance(s.normal_view);
     if (hasLight(kLightLambert)) {
+        if (transmits()) {
+            occlusion *= scatteredShare(s);
+        }
         precise vec3 lambert = sky * base_color * occlusion;
         return lambert;
     }
@@ -210,10 +213,13 @@ vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric diel
     if (!dielectric.usual) {
         albedo *= entering(dielectric) / (1.0 - kDielectricF0);
     }
+    if (transmits()) {
+        albedo *= scatteredShare(s);
+    }
     precise vec3 lit = sky * (albedo + f0) * occlusion;
     if (scattersLightFromBehind()) {
         float white = (1.0 - metallic) * (entering(dielectric) / (1.0 - kDielectricF0));
-        vec3 behind = skyRadiance(-s.normal_view) * white;
+        vec3 behind = skyRadiance(-s.normal_view) * (white * scatteredShare(s));
         lit = (sky * f0 + withLightFromBehind(s, sky * albedo, behind)) * occlusion;
     }
     return lit;

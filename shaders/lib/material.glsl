@@ -196,6 +196,21 @@ DiffuseTransmission shadeDiffuseTransmission(VertexData v) {
     }
     return through;
 }
+
+// roughness: of the surface.
+Transmission shadeTransmission(VertexData v, float roughness) {
+    Transmission t =
+        Transmission(material.transmission.strength, transmittedRoughness(roughness, material.ior),
+                     material.ior, material.transmission.dispersion, material.volume.thickness_m,
+                     material.volume.attenuation_color, material.volume.attenuation_m);
+    if (hasTexture(transmission_slot)) {
+        t.strength *= sampleMaterial(transmission, v).r;
+    }
+    if (hasTexture(thickness_slot)) {
+        t.thickness *= sampleMaterial(thickness, v).g;
+    }
+    return t;
+}
 #endif
 
 GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool front) {
@@ -248,6 +263,9 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     }
     if (hasDiffuseTransmission()) {
         g.layers.diffuse_transmission = shadeDiffuseTransmission(v);
+    }
+    if (hasTransmission()) {
+        g.layers.transmission = shadeTransmission(v, g.roughness);
     }
 #endif
     return g;

@@ -134,7 +134,7 @@ float shadowShare(Surface s, uint shadow) {
 #ifdef FROXEL_LAYERED
 // Of the surface's other side, where light comes through it.
 void findShadowsOfLayers(bool lit, inout Surface s) {
-    if (hasDiffuseTransmission()) {
+    if (litFromBehind()) {
         s.layers.shadows_behind = findShadows(behindOf(s), lit);
     }
 }

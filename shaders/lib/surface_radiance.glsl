@@ -15,14 +15,15 @@ vec3 mattAround(Surface s, float occlusion) {
 // What is around, as a matt surface of that base colour scatters it.
 vec3 scatteredAround(Surface s, vec3 base_color, float occlusion) {
     vec3 scattered = base_color * mattAround(s, occlusion);
-    return scattersLightFromBehind()
-               ? withLightFromBehind(s, scattered, mattAround(behindOf(s), occlusion))
-               : scattered;
+    if (scattersLightFromBehind()) {
+        scattered = withLightFromBehind(s, scattered, mattAround(behindOf(s), occlusion));
+    }
+    return transmits() ? scattered * scatteredShare(s) : scattered;
 }
 
 // What lights behind the surface add up to there, as far as it lets them through; `own`, all
 // lights' sum, then has as much less of what its own side scatters.
-LightSum throughSurface(DiffuseTransmission through, inout LightSum own) {
+LightSum throughSurface(DiffuseTransmission through, Surface s, inout LightSum own) {
     LightSum behind = noLight();
     if (hasDiffuseTransmission()) {
         float left = 1.0 - through.strength;
@@ -31,12 +32,53 @@ LightSum throughSurface(DiffuseTransmission through, inout LightSum own) {
         own.diffuse = min(own.diffuse, kMostSum) * left;
         own.edge = min(own.edge, kMostSum) * left;
     }
+    if (transmits()) {
+        float scattered = scatteredShare(s);
+        behind.diffuse *= scattered;
+        behind.edge *= scattered;
+        own.diffuse = min(own.diffuse, kMostSum) * scattered;
+        own.edge = min(own.edge, kMostSum) * scattered;
+    }
     return behind;
+}
+
+// What passes the surface: `behind`, and lights there by the same lobe as they would be mirrored
+// by. enters, enters_around: the share of it that is not reflected; edges: and more at grazing
+// angles.
+vec3 transmitted(GbufferSample g, Surface s, LightSum sum, vec3 behind, float enters, float edges,
+                 float enters_around) {
+    precise vec3 lights = min(sum.layers.through, kMostSum) * enters +
+                          min(sum.layers.through_grazing, kMostSum) * edges;
+    precise vec3 passes = lights * (0.5 / kPi) + behind * enters_around;
+    return passes * g.base_color * (s.layers.transmission * (1.0 - g.metallic));
+}
+
+// Of the eye's angle alone, where there is no environment whose lobes would be known.
+float entersFromAround(Surface s, Dielectric dielectric) {
+    vec3 reflected;
+    if (hasLight(kLightEnvironment)) {
+        reflected =
+            reflectedShare(dielectric.f0, dielectric.f90, lobeAlbedo(s.n_dot_v, lobeRoughness(s)));
+    } else {
+        float left = 1.0 - s.n_dot_v;
+        float p = (left * left) * (left * left) * left;
+        reflected = mix(dielectric.f0, vec3(dielectric.f90), p);
+    }
+    return 1.0 - max(max(reflected.r, reflected.g), reflected.b);
+}
+
+vec3 transmittedBare(GbufferSample g, Surface s, LightSum sum, vec3 behind) {
+    if (hasLight(kLightLambert)) {
+        return behind * g.base_color * s.layers.transmission;
+    }
+    return transmitted(g, s, sum, behind, entering(g.dielectric), 1.0 - g.dielectric.f90,
+                       entersFromAround(s, g.dielectric));
 }
 
 // `lit`, but what a film takes of the surface: what lights and what is around send from there, by
 // one Fresnel term of the eye's for all. What is around is brought as in ambientRadiance().
-vec3 underFilm(vec3 lit, Surface s, LightSum sum, LightSum behind, GbufferSample g) {
+vec3 underFilm(vec3 lit, Surface s, LightSum sum, LightSum behind, vec3 seen_behind,
+               GbufferSample g) {
     if (!hasFilm()) {
         return lit;
     }
@@ -55,6 +97,7 @@ vec3 underFilm(vec3 lit, Surface s, LightSum sum, LightSum behind, GbufferSample
     precise vec3 filmed = (scattered * (scatters * entering) +
                            mix(of_dielectric, of_metal, g.metallic) * lobe * 0.5) /
                           kPi;
+    float enters_lights = entering;
     vec3 around = scatteredAround(s, g.base_color, g.occlusion) * scatters;
     if (hasLight(kLightEnvironment)) {
         float whole = lobeAlbedo(s.n_dot_v, lobeRoughness(s)).x;
@@ -67,6 +110,10 @@ vec3 underFilm(vec3 lit, Surface s, LightSum sum, LightSum behind, GbufferSample
     } else {
         filmed += around * (entering / (1.0 - kDielectricF0)) +
                   mattAround(s, g.occlusion) * mix(of_dielectric, of_metal, g.metallic);
+    }
+    if (hasTransmission()) {
+        // What facets reflect less at grazing angles passes, too: a film has one term for all.
+        filmed += transmitted(g, s, sum, seen_behind, enters_lights, enters_lights, entering);
     }
     precise vec3 seen = mix(lit, filmed, film.strength);
     return seen;
@@ -109,11 +156,12 @@ vec3 underCoat(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) 
 }
 #endif
 
-// What the eye sees of a lit surface, its layers and all.
-vec3 surfaceRadiance(GbufferSample g, Surface s, LightSum sum) {
+// What the eye sees of a lit surface, its layers and all. seen_behind: through it, where it
+// transmits.
+vec3 surfaceRadiance(GbufferSample g, Surface s, LightSum sum, vec3 seen_behind) {
     LightSum own = sum;
 #ifdef FROXEL_LAYERED
-    LightSum behind = throughSurface(g.layers.diffuse_transmission, own);
+    LightSum behind = throughSurface(g.layers.diffuse_transmission, s, own);
 #endif
     precise vec3 lit = shadeSum(own, g.base_color, g.metallic, g.dielectric) +
                        ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion);
@@ -121,7 +169,10 @@ vec3 surfaceRadiance(GbufferSample g, Surface s, LightSum sum) {
     if (hasDiffuseTransmission()) {
         lit += shadeSum(behind, g.layers.diffuse_transmission.color, g.metallic, g.dielectric);
     }
-    lit = underFilm(lit, s, own, behind, g);
+    if (hasTransmission()) {
+        lit += transmittedBare(g, s, sum, seen_behind);
+    }
+    lit = underFilm(lit, s, own, behind, seen_behind, g);
     lit = underSheen(lit, s, sum, g.layers.sheen, g.occlusion);
 #endif
     precise vec3 seen = lit + g.emissive;
@@ -129,4 +180,9 @@ vec3 surfaceRadiance(GbufferSample g, Surface s, LightSum sum) {
     seen = underCoat(seen, s, sum, g.layers.coat, g.occlusion);
 #endif
     return seen;
+}
+
+// Of one that nothing is seen through.
+vec3 surfaceRadiance(GbufferSample g, Surface s, LightSum sum) {
+    return surfaceRadiance(g, s, sum, vec3(0.0));
 }

@@ -68,6 +68,10 @@ glm::vec4 row(const glm::mat4& m, int i) {
     return {m[0][i], m[1][i], m[2][i], m[3][i]};
 }
 
+void eraseEmpty(std::vector<DrawGroup>& groups) {
+    std::erase_if(groups, [](const DrawGroup& group) { return group.command_count == 0; });
+}
+
 // A visible meshlet with what it is sorted by.
 struct Visible {
     uint32_t bucket; // of distance, near ones first
@@ -135,7 +139,7 @@ class Builder {
     [[nodiscard]] float distance(const DrawItem& item, const glm::vec3& center) const;
     void collect(uint32_t item_index, std::vector<Visible>& visible) const;
     void addSolid(std::vector<Visible>& visible);
-    void addTransparent(std::vector<Visible>& visible, TransparentOrder order);
+    void addLayered(std::vector<Visible>& visible, TransparentOrder order, LayeredDraws& draws);
     void openGroup(const DrawItem& item, std::vector<DrawGroup>& groups);
     void cullRun(Run& run, std::vector<uint32_t>& indices) const;
     void cullRuns(std::span<Run> runs);
@@ -368,6 +372,7 @@ void Builder::addSolid(std::vector<Visible>& visible) {
                           return x.item == y.item && x.bucket == y.bucket;
                       }),
             out_.solid);
+    eraseEmpty(out_.solid);
 }
 
 vk::Rect2D Builder::partOf(const Visible& visible) const {
@@ -384,7 +389,9 @@ vk::Rect2D Builder::partOf(const Visible& visible) const {
 }
 
 // Whole items: blending needs order more than it needs few draws.
-void Builder::addTransparent(std::vector<Visible>& visible, TransparentOrder order) {
+void Builder::addLayered(std::vector<Visible>& visible,
+                         TransparentOrder order,
+                         LayeredDraws& draws) {
     const auto before = [&](const Visible& a, const Visible& b) {
         const auto key = [&](const Visible& v) {
             const DrawItem& item = items_[v.item];
@@ -396,30 +403,33 @@ void Builder::addTransparent(std::vector<Visible>& visible, TransparentOrder ord
         return key(a) < key(b);
     };
     std::sort(visible.begin(), visible.end(), before);
-    const uint32_t solid_count = out_.triangle_count;
+    const uint32_t count_before = out_.triangle_count;
     addRuns(splitRuns(visible, [](const Visible& x, const Visible& y) { return x.item == y.item; }),
-            out_.transparent);
-    out_.transparent_triangle_count = out_.triangle_count - solid_count;
+            draws.groups);
+    draws.triangle_count = out_.triangle_count - count_before;
     for (const Visible& v : visible) {
-        out_.transparent_parts.push_back(partOf(v));
+        draws.parts.push_back(partOf(v));
     }
+    eraseEmpty(draws.groups);
 }
 
 void Builder::build(bool solid_wanted, TransparentOrder order) {
     placeInstances();
     std::vector<Visible> solid;
     std::vector<Visible> transparent;
+    std::vector<Visible> transmissive;
     for (uint32_t i = 0; i < items_.size(); ++i) {
-        const bool blend = !isSolid(items_[i]);
-        if (blend || solid_wanted) {
-            collect(i, blend ? transparent : solid);
+        if (isTransmissive(items_[i].material_flags)) {
+            collect(i, transmissive);
+        } else if (!isSolid(items_[i])) {
+            collect(i, transparent);
+        } else if (solid_wanted) {
+            collect(i, solid);
         }
     }
     addSolid(solid);
-    addTransparent(transparent, order);
-    const auto empty = [](const DrawGroup& group) { return group.command_count == 0; };
-    std::erase_if(out_.solid, empty);
-    std::erase_if(out_.transparent, empty);
+    addLayered(transparent, order, out_.transparent);
+    addLayered(transmissive, TransparentOrder::kOfTheScene, out_.transmissive);
 }
 
 } // namespace
@@ -437,7 +447,7 @@ void buildDrawList(const SceneResources& scene,
     out.commands.clear();
     out.solid.clear();
     out.transparent.clear();
-    out.transparent_parts.clear();
+    out.transmissive.clear();
     out.indices.clear();
     out.triangle_count = 0;
     Builder(scene, pose, camera, size, projection, geometry_error_px, by_triangle, out)

@@ -29,14 +29,26 @@ struct DrawGroup {
     uint32_t command_count = 0;
 };
 
+// Of surfaces that what is behind shows through.
+struct LayeredDraws {
+    std::vector<DrawGroup> groups;
+    uint32_t triangle_count = 0;
+    std::vector<vk::Rect2D> parts; // of the picture, that hold a meshlet each
+
+    void clear() {
+        groups.clear();
+        triangle_count = 0;
+        parts.clear();
+    }
+};
+
 // Keep one and build into it again: its buffers are reused.
 struct DrawList {
     std::vector<InstanceRows> rows;                       // one for each instance
     std::vector<vk::DrawIndexedIndirectCommand> commands; // of all groups
     std::vector<DrawGroup> solid;                         // opaque and masked, near ones first
-    std::vector<DrawGroup> transparent;                   // in the order asked for
-    uint32_t transparent_triangle_count = 0;              // of these
-    std::vector<vk::Rect2D> transparent_parts; // of the picture, that hold a meshlet each
+    LayeredDraws transparent;                             // blended ones, in the order asked for
+    LayeredDraws transmissive;                            // in the order of the scene
     std::vector<uint32_t> indices; // culled by triangle; empty: commands index the scene's own
     std::vector<std::vector<uint32_t>> thread_indices; // scratch of the culling
     uint32_t triangle_count = 0;
@@ -47,7 +59,7 @@ struct DrawList {
 enum class TransparentOrder : uint8_t { kByDistance, kOfTheScene };
 
 // by_triangle: also cull single triangles, into DrawList::indices; of what bends, whose vertices
-// only the device knows, all. solid: false leaves out all but transparent surfaces. Pure.
+// only the device knows, all. solid: false leaves out those. Pure.
 void buildDrawList(const SceneResources& scene,
                    const ScenePose& pose,
                    const settings::Camera& camera,

@@ -110,6 +110,22 @@ RegionCost FrameCosts::resolved(bool shades) const {
             shades ? inputs_.lit_surfaces * loop(unit_.compute) : Seconds(0)};
 }
 
+RegionCost FrameCosts::layered(const LayeredDraws& draws) const {
+    return {Seconds(draws.triangle_count * unit_.triangle),
+            [this, &draws](const vk::Rect2D& region) {
+                double sum = 0;
+                for (const vk::Rect2D& part : draws.parts) {
+                    const vk::Rect2D both = common(part, region);
+                    if (both.extent.width > 0) {
+                        sum += areaOf(both) * unit_.surface_pixel +
+                               inputs_.lit_surfaces * lit(both, unit_.fragment);
+                    }
+                }
+                return Seconds(sum + areaOf(region) * unit_.depth_pixel);
+            },
+            inputs_.lit_surfaces * loop(unit_.fragment)};
+}
+
 RegionCost FrameCosts::screen() const {
     return {Seconds(0),
             [this](const auto& region) { return Seconds(areaOf(region) * unit_.screen_pixel); }};

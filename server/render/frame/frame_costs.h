@@ -72,6 +72,8 @@ class FrameCosts {
     [[nodiscard]] RegionCost surfaces() const;
     [[nodiscard]] RegionCost shadedSurfaces(double each) const;
     [[nodiscard]] RegionCost resolved(bool shades) const;
+    // Surfaces that what is behind shows through, once, over finished depth.
+    [[nodiscard]] RegionCost layered(const LayeredDraws& draws) const;
     // A pass that only adds up lights.
     [[nodiscard]] RegionCost shading(const PairCost& unit) const;
     // Over another one: tone map, filters, what blending came to.

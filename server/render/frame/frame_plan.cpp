@@ -137,7 +137,7 @@ FramePlan planVariants(const settings::ViewSettings& settings, const FrameFacts&
     }
     plan.gbuffer_unused_material_flags = kLayerFlags;
     if (settings.shading == settings::ShadingModel::kLambert) {
-        plan.forward_unused_material_flags = kLayerFlags;
+        plan.forward_unused_material_flags = kLayerFlags & ~kTransmissionFlags;
         plan.gbuffer_unused_material_flags |=
             textureFlag(io::metallic_roughness_slot) | kSpecularFlags;
     }

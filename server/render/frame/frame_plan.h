@@ -37,12 +37,13 @@ struct FrameFacts {
     ListPlace lists = ListPlace::kHost;
     Outputs outputs = {}; // that are asked for
     PictureForm form = PictureForm::kPixels;
-    bool layers_visible = false;      // solid surfaces with layers are drawn by the rasteriser
-    bool transparent_visible = false; // blended surfaces are in view
-    bool unlit_solid = false;         // SceneNeeds::unlit
-    bool compute_batches = false;     // subgroups fetch lights together in compute
-    bool fragment_batches = false;    // and in the fragment stage
-    bool culled_batches = false;      // and skip what adds nothing to any of their pixels
+    bool layers_visible = false;       // solid surfaces with layers are drawn by the rasteriser
+    bool transparent_visible = false;  // blended surfaces are in view
+    bool transmissive_visible = false; // surfaces that light passes as through glass are in view
+    bool unlit_solid = false;          // SceneNeeds::unlit
+    bool compute_batches = false;      // subgroups fetch lights together in compute
+    bool fragment_batches = false;     // and in the fragment stage
+    bool culled_batches = false;       // and skip what adds nothing to any of their pixels
     // A workgroup takes as long where nothing covers its pixels, and the host reads where the
     // device writes.
     bool software_device = false;

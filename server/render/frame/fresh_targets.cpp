@@ -18,7 +18,7 @@ void recordFreshTargets(FrameSlot& slot) {
                                 .oldLayout = vk::ImageLayout::eUndefined,
                                 .newLayout = vk::ImageLayout::eGeneral,
                                 .image = *image.handle,
-                                .subresourceRange = {aspect, 0, 1, 0, 1}});
+                                .subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, 1}});
         }
     };
     ViewTargets& targets = *slot.targets;

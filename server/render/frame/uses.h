@@ -12,18 +12,19 @@
 namespace froxel::render {
 
 enum class Resource : uint8_t {
-    kPosed,    // vertices that bend
-    kLists,    // light lists made on the device
-    kAtlas,    // of shadow maps
-    kDepth,    // of solid surfaces
-    kIds,      // of visible triangles
-    kWords,    // depth and id, 64 bits a pixel
-    kGbuffer,  // both targets
-    kRadiance, // the linear picture
-    kFroxels,  // the fog's volume
-    kDisplay,  // packed pixels that a filter reads
-    kDisplay2, // likewise, where another filter follows
-    kPixels,   // packed pixels
+    kPosed,             // vertices that bend
+    kLists,             // light lists made on the device
+    kAtlas,             // of shadow maps
+    kDepth,             // of solid surfaces
+    kIds,               // of visible triangles
+    kWords,             // depth and id, 64 bits a pixel
+    kGbuffer,           // both targets
+    kRadiance,          // the linear picture
+    kTransmissiveDepth, // of the layers of surfaces that transmit light
+    kFroxels,           // the fog's volume
+    kDisplay,           // packed pixels that a filter reads
+    kDisplay2,          // likewise, where another filter follows
+    kPixels,            // packed pixels
     kCount
 };
 

@@ -23,6 +23,15 @@ using MaterialFlags = uint64_t;
     return static_cast<uint32_t>(flags >> 32U);
 }
 
+// Does not blend, and nothing is seen through it.
+[[nodiscard]] constexpr bool isSolid(MaterialFlags flags) {
+    return (flags & (io::kMaterialBlend | io::kMaterialTransmission)) == 0;
+}
+// Light passes it as through glass; what is blended, too, may be so.
+[[nodiscard]] constexpr bool isTransmissive(MaterialFlags flags) {
+    return (flags & io::kMaterialTransmission) != 0;
+}
+
 // Any texture: coordinates are fetched.
 inline constexpr MaterialFlags kAnyTexture = ~MaterialFlags{0} << 32U;
 // Whether shaders fetch coordinates; a direction on the surface is derived from them, too.
@@ -37,6 +46,11 @@ inline constexpr MaterialFlags kSpecularFlags =
 inline constexpr MaterialFlags kLayerFlags =
     MaterialFlags{io::kMaterialLayers} |
     (textureFlag(io::kMaterialSlots) - textureFlag(io::kSurfaceSlots));
+
+// What transmission has of these.
+inline constexpr MaterialFlags kTransmissionFlags = MaterialFlags{io::kMaterialTransmission} |
+                                                    textureFlag(io::transmission_slot) |
+                                                    textureFlag(io::thickness_slot);
 
 // Over how many surfaces lights are added up where this is: a layer is one of its own.
 [[nodiscard]] constexpr double litSurfaces(MaterialFlags flags) {

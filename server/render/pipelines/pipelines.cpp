@@ -17,10 +17,21 @@ namespace {
 using Stage = vk::ShaderStageFlagBits;
 using Type = vk::DescriptorType;
 
-constexpr std::array<std::string_view, 12> kGeometryNames = {
-    "depth prepass", "gbuffer",  "gbuffer after depth", "forward",    "forward after depth",
-    "transparent",   "weighted", "peel select",         "peel shade", "peel count",
-    "overdraw",      "instances"};
+constexpr std::array<std::string_view, 15> kGeometryNames = {"depth prepass",
+                                                             "gbuffer",
+                                                             "gbuffer after depth",
+                                                             "forward",
+                                                             "forward after depth",
+                                                             "transparent",
+                                                             "transparent behind",
+                                                             "weighted",
+                                                             "peel select",
+                                                             "peel shade",
+                                                             "peel count",
+                                                             "transmission depth",
+                                                             "transmission",
+                                                             "overdraw",
+                                                             "instances"};
 constexpr std::string_view kBlendResolveName = "blend resolve";
 constexpr std::string_view kBlendOverUnlitName = "blend over unlit";
 
@@ -74,6 +85,14 @@ vk::raii::DescriptorSetLayout blendSetLayout(const gpu::Device& device) {
     return gpu::makeSetLayout(device, bindings);
 }
 
+vk::raii::DescriptorSetLayout transmissionSetLayout(const gpu::Device& device) {
+    const std::array bindings = {
+        vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1, Stage::eFragment},
+        vk::DescriptorSetLayoutBinding{1, Type::eSampledImage, 1, Stage::eFragment},
+        vk::DescriptorSetLayoutBinding{2, Type::eCombinedImageSampler, 1, Stage::eFragment}};
+    return gpu::makeSetLayout(device, bindings);
+}
+
 // Streams: 0 positions, 1 surface vertices, 2 extended vertices, 3 instance rows.
 void describeVertices(gpu::GraphicsPipelineInfo& info, bool surface, bool textured, bool extended) {
     using Rate = vk::VertexInputRate;
@@ -120,6 +139,11 @@ gpu::Spirv layeredShader(GeometryPass pass, bool extended, bool batched) {
         return pick(extended, batched, forward_peeled_layered_frag(),
                     forward_peeled_layered_extended_frag(), forward_peeled_layered_batched_frag(),
                     forward_peeled_layered_batched_extended_frag());
+    case GeometryPass::kTransmission:
+        return pick(extended, batched, forward_transmission_layered_frag(),
+                    forward_transmission_layered_extended_frag(),
+                    forward_transmission_layered_batched_frag(),
+                    forward_transmission_layered_batched_extended_frag());
     default:
         return pick(extended, batched, forward_layered_frag(), forward_layered_extended_frag(),
                     forward_layered_batched_frag(), forward_layered_batched_extended_frag());
@@ -139,6 +163,18 @@ gpu::Spirv forwardShader(GeometryPass pass, bool extended, bool batched) {
         return pick(extended, batched, forward_frag(), forward_extended_frag(),
                     forward_batched_frag(), forward_batched_extended_frag());
     }
+}
+
+gpu::Spirv surfaceVertices(GeometryPass pass, bool textured, bool extended) {
+    using namespace shaders;
+    if (transmits(pass)) {
+        return extended   ? surface_transmission_extended_vert()
+               : textured ? surface_transmission_vert()
+                          : surface_transmission_untextured_vert();
+    }
+    return extended   ? surface_extended_vert()
+           : textured ? surface_vert()
+                      : surface_untextured_vert();
 }
 
 gpu::Spirv fragmentShader(GeometryPass pass, const VariantKey& key) {
@@ -176,6 +212,8 @@ gpu::Spirv depthOnlyShader(GeometryPass pass) {
         return shaders::peel_select_frag();
     case GeometryPass::kPeelCount:
         return shaders::peel_count_frag();
+    case GeometryPass::kTransmissionDepth:
+        return shaders::transmission_depth_frag();
     default:
         return {};
     }
@@ -185,6 +223,7 @@ std::vector<vk::Format> colorFormats(GeometryPass pass, uint32_t output_flags) {
     switch (pass) {
     case GeometryPass::kDepth:
     case GeometryPass::kPeelCount:
+    case GeometryPass::kTransmissionDepth:
         return {};
     case GeometryPass::kGbuffer:
     case GeometryPass::kGbufferAfterDepth:
@@ -210,6 +249,7 @@ void describeTests(gpu::GraphicsPipelineInfo& info, GeometryPass pass) {
         info.depth_write = false;
         break;
     case GeometryPass::kTransparent:
+    case GeometryPass::kTransparentBehind:
         info.depth_write = false;
         info.blend = gpu::Blend::kOver;
         break;
@@ -221,6 +261,11 @@ void describeTests(gpu::GraphicsPipelineInfo& info, GeometryPass pass) {
         info.depth_compare = vk::CompareOp::eEqual;
         info.depth_write = false;
         info.blend = gpu::Blend::kUnder;
+        break;
+    case GeometryPass::kTransmission:
+        info.depth_compare = vk::CompareOp::eEqual;
+        info.depth_write = false;
+        info.blend = gpu::Blend::kOver;
         break;
     case GeometryPass::kPeelCount:
         info.depth_compare = vk::CompareOp::eGreater;
@@ -256,6 +301,9 @@ Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, V
                                            {*frame_layout_, *material_layout_, *blend_set_layout_},
                                            sizeof(io::PeelDraw),
                                            Stage::eFragment)),
+      transmission_set_layout_(render::transmissionSetLayout(device)),
+      transmission_layout_(gpu::makePipelineLayout(
+          device, {*frame_layout_, *material_layout_, *transmission_set_layout_})),
       resolve_layout_(gpu::makePipelineLayout(device, {*blend_set_layout_})),
       over_unlit_layout_(gpu::makePipelineLayout(
           device, {*frame_layout_, *screen_set_layout_, *blend_set_layout_})),
@@ -268,14 +316,11 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
     const bool surface = !depthOnly(pass) || hasHoles(key.material_flags);
     gpu::GraphicsPipelineInfo info;
     info.constants = fragmentConstants(key, device_.traits());
-    info.layout = tellsDraws(pass) ? *told_layout_ : *geometry_layout_;
+    info.layout = layoutOf(pass);
     info.depth_format = kDepthFormat;
     const bool textured = extended || fetchesCoordinates(key.material_flags);
     describeVertices(info, surface, textured, surface && extended);
-    info.vertex = !surface   ? shaders::depth_vert()
-                  : extended ? shaders::surface_extended_vert()
-                  : textured ? shaders::surface_vert()
-                             : shaders::surface_untextured_vert();
+    info.vertex = surface ? surfaceVertices(pass, textured, extended) : shaders::depth_vert();
     info.fragment = surface ? fragmentShader(pass, key) : depthOnlyShader(pass);
     info.color_formats = colorFormats(pass, key.output_flags);
     describeTests(info, pass);

@@ -24,10 +24,13 @@ enum class GeometryPass : uint8_t {
     kForward,           // forward, writing depth
     kForwardAfterDepth, // forward where the prepass left the same depth
     kTransparent,       // forward, blended, over finished depth
+    kTransparentBehind, // likewise, behind what transmits light
     kWeighted,          // forward, summed by weights
     kPeelSelect,        // which triangle each pixel's next layer is of
     kPeelShade,         // forward, that layer under those before
     kPeelCount,         // pixels that have yet another
+    kTransmissionDepth, // which surface that transmits light each pixel's next layer is
+    kTransmission,      // forward, that layer over what is behind it
     kOverdraw,          // counts fragments, writing depth
     kInstances,         // whose the nearest fragment is, writing depth
 };
@@ -42,7 +45,12 @@ enum class GeometryPass : uint8_t {
 [[nodiscard]] constexpr bool depthOnly(GeometryPass pass) {
     return pass == GeometryPass::kDepth || pass == GeometryPass::kOverdraw ||
            pass == GeometryPass::kInstances || pass == GeometryPass::kPeelSelect ||
-           pass == GeometryPass::kPeelCount;
+           pass == GeometryPass::kPeelCount || pass == GeometryPass::kTransmissionDepth;
+}
+
+// Passes of surfaces that transmit light, which read what is behind them.
+[[nodiscard]] constexpr bool transmits(GeometryPass pass) {
+    return pass == GeometryPass::kTransmissionDepth || pass == GeometryPass::kTransmission;
 }
 
 // Passes that draw one by one, with push constants.
@@ -88,6 +96,7 @@ inline constexpr auto kFrameBindings = [] {
     all[io::kEnvironmentBinding] = {Type::eUniformBuffer};
     all[io::kLevelsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
     all[io::kLobesBinding] = {kTexels, vk::Format::eR32G32Sfloat};
+    all[io::kTransmissiveDepthBinding] = {Type::eSampledImage};
     return all;
 }();
 
@@ -141,6 +150,20 @@ class Pipelines {
     [[nodiscard]] vk::PipelineLayout geometryPipelineLayout() const { return *geometry_layout_; }
     // As that, a blend set of passes that peel, and push constants of passes that tell draws.
     [[nodiscard]] vk::PipelineLayout toldPipelineLayout() const { return *told_layout_; }
+    // Two sampled images and a combined one: solid depth, the layer before, the picture behind.
+    [[nodiscard]] vk::DescriptorSetLayout transmissionSetLayout() const {
+        return *transmission_set_layout_;
+    }
+    // As geometryPipelineLayout(), and such a set.
+    [[nodiscard]] vk::PipelineLayout transmissionPipelineLayout() const {
+        return *transmission_layout_;
+    }
+    // Of a pass that draws geometry.
+    [[nodiscard]] vk::PipelineLayout layoutOf(GeometryPass pass) const {
+        return tellsDraws(pass)  ? *told_layout_
+               : transmits(pass) ? *transmission_layout_
+                                 : *geometry_layout_;
+    }
     [[nodiscard]] vk::PipelineLayout screenPipelineLayout() const { return *screen_layout_; }
 
     [[nodiscard]] static vk::Format gbufferFormat(uint32_t output_flags) {
@@ -162,6 +185,8 @@ class Pipelines {
     vk::raii::PipelineLayout screen_layout_;
     vk::raii::DescriptorSetLayout blend_set_layout_;
     vk::raii::PipelineLayout told_layout_;
+    vk::raii::DescriptorSetLayout transmission_set_layout_;
+    vk::raii::PipelineLayout transmission_layout_;
     vk::raii::PipelineLayout resolve_layout_;
     vk::raii::PipelineLayout over_unlit_layout_;
     VariantCache<settings::Transparency> blend_resolve_;

@@ -9,7 +9,8 @@ namespace froxel::render {
 
 uint32_t materialSlots(const gpu::DeviceTraits& traits) {
     for (const uint32_t slots : {io::kMaterialSlots, io::kSurfaceSlots}) {
-        if (traits.most_textures >= kPassTextures + slots && traits.most_samplers >= slots) {
+        if (traits.most_textures >= kPassTextures + slots &&
+            traits.most_samplers >= slots + kPassSamplers) {
             return slots;
         }
     }

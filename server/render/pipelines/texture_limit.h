@@ -8,8 +8,10 @@
 namespace froxel::render {
 
 // Images and texel buffers that a pass over surfaces reads at most, beside materials': the frame's
-// set and the screen's. Only materials' have samplers.
-inline constexpr uint32_t kPassTextures = 15;
+// set and the screen's, or what is seen through a surface, which is no more.
+inline constexpr uint32_t kPassTextures = 16;
+// Of these, those with samplers.
+inline constexpr uint32_t kPassSamplers = 1;
 
 // Of interface/material_slots.h, from the first: all; or those of surfaces alone, where layers over
 // them are too much for the device. Throws StartupError(kUnsupported) where those are too many,

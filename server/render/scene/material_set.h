@@ -25,9 +25,8 @@ struct DrawItem {
     bool bends = false;               // of its meshlets nothing but the primitive's sphere is known
 };
 
-// Does not blend.
 [[nodiscard]] inline bool isSolid(const DrawItem& item) {
-    return (item.material_flags & io::kMaterialBlend) == 0;
+    return isSolid(item.material_flags);
 }
 // Of any of them that is solid.
 [[nodiscard]] MaterialFlags solidFlags(std::span<const DrawItem> items);

@@ -22,6 +22,11 @@ bool reflectsUnusually(const scene::Material& m) {
            m.specular_color_texture.texture != scene::kNone;
 }
 
+// All of it, so that nothing passes it.
+bool isMetal(const scene::Material& m) {
+    return m.metallic == 1 && m.metallic_roughness_texture.texture == scene::kNone;
+}
+
 // Whether what a texture says can be seen: nothing multiplied by it is 0.
 bool shows(const scene::Material& m, uint32_t slot) {
     if (m.unlit) {
@@ -48,9 +53,12 @@ bool shows(const scene::Material& m, uint32_t slot) {
     case io::diffuse_transmission_slot:
     case io::diffuse_transmission_color_slot:
         return m.diffuse_transmission.strength != 0;
+    case io::transmission_slot:
+        return m.transmission.strength != 0 && !isMetal(m);
     case io::thickness_slot:
-        return m.diffuse_transmission.strength != 0 && m.volume.thickness_m != 0 &&
-               m.volume.attenuation_m != 0;
+        return m.volume.thickness_m != 0 &&
+               ((m.transmission.strength != 0 && !isMetal(m)) ||
+                (m.diffuse_transmission.strength != 0 && m.volume.attenuation_m != 0));
     default:
         return true;
     }
@@ -84,19 +92,20 @@ MaterialFlags materialFlags(const scene::Material& m) {
         set(m.anisotropy.strength != 0, io::kMaterialAnisotropy);
         set(m.film.strength != 0, io::kMaterialFilm);
         set(m.diffuse_transmission.strength != 0, io::kMaterialDiffuseTransmission);
+        set(m.transmission.strength != 0 && !isMetal(m), io::kMaterialTransmission);
     }
     return flags;
 }
 
+// Of a solid one.
 bool needsWide(const scene::Material& m, bool metalness) {
-    return m.alpha_mode != scene::AlphaMode::kBlend &&
-           ((metalness && m.metallic != 0) || m.unlit || m.emissive != glm::vec3(0) ||
-            m.occlusion_texture.texture != scene::kNone);
+    return (metalness && m.metallic != 0) || m.unlit || m.emissive != glm::vec3(0) ||
+           m.occlusion_texture.texture != scene::kNone;
 }
 
-// The least that brings emission to io::kMostStoredEmission.
+// The least that brings emission to io::kMostStoredEmission; of a solid one.
 uint32_t emissionExponent(const scene::Material& m) {
-    if (m.alpha_mode == scene::AlphaMode::kBlend || m.unlit) {
+    if (m.unlit) {
         return 0;
     }
     const float most = std::max({m.emissive.x, m.emissive.y, m.emissive.z});
@@ -110,17 +119,20 @@ uint32_t emissionExponent(const scene::Material& m) {
 }
 
 SurfaceNeeds surfaceNeeds(const scene::Material& m, MaterialFlags flags) {
-    const bool solid = m.alpha_mode != scene::AlphaMode::kBlend;
+    const bool solid = isSolid(flags);
     const bool unusual = !m.unlit && reflectsUnusually(m);
-    return {.wide_gbuffer = needsWide(m, true),
-            .wide_lambert = needsWide(m, false),
-            .emission_exponent = emissionExponent(m),
+    const bool transmissive = isTransmissive(flags);
+    return {.wide_gbuffer = solid && needsWide(m, true),
+            .wide_lambert = solid && needsWide(m, false),
+            .emission_exponent = solid ? emissionExponent(m) : 0,
             .specular = unusual && solid,
             .edges = (unusual && (m.specular != 1 || m.specular_texture.texture != scene::kNone)) ||
                      (flags & io::kMaterialFilm) != 0,
             .layers = (flags & io::kMaterialLayers) != 0 && solid,
             .masked = m.alpha_mode == scene::AlphaMode::kMask,
-            .blended = !solid,
+            .blended = !solid && !transmissive,
+            .transmissive = transmissive,
+            .frosted = transmissive && m.roughness != 0,
             .unlit = m.unlit && solid};
 }
 
@@ -135,6 +147,8 @@ void SurfaceNeeds::add(const SurfaceNeeds& other) {
     layers |= other.layers;
     masked |= other.masked;
     blended |= other.blended;
+    transmissive |= other.transmissive;
+    frosted |= other.frosted;
     unlit |= other.unlit;
 }
 

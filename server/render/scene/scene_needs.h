@@ -20,7 +20,9 @@ struct SurfaceNeeds {
     bool layers = false; // a solid surface has layers over it: a coat
     bool masked = false;
     bool blended = false;
-    bool unlit = false; // a solid surface is
+    bool transmissive = false; // light passes it as through glass
+    bool frosted = false;      // and is scattered as it does
+    bool unlit = false;        // a solid surface is
 
     void add(const SurfaceNeeds& other);
 };

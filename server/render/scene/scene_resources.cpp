@@ -24,6 +24,9 @@ namespace {
 constexpr vk::DeviceSize kTextureChunkBytes = 64U << 20U;
 constexpr uint32_t kFewestTextures = 256; // that there is room for where shaders read all
 
+// Stands for an infinite index of refraction.
+constexpr float kInfiniteIor = 1e6F;
+
 io::UvTransform uvTransform(const scene::TextureSlot& slot) {
     const float c = std::cos(slot.rotation_rad);
     const float s = std::sin(slot.rotation_rad);
@@ -44,6 +47,10 @@ io::Material materialUniforms(const scene::Material& m) {
                      .alpha_cutoff = m.alpha_cutoff,
                      .specular_f0 = m.specular_color * (root * root),
                      .specular = m.specular,
+                     .ior = m.ior == 0 ? kInfiniteIor : m.ior,
+                     .padding0 = 0,
+                     .padding1 = 0,
+                     .padding2 = 0,
 #define FROXEL_MEMBER(type, name) .name = m.name,
                      FROXEL_MATERIAL_FACTORS(FROXEL_MEMBER)
 #undef FROXEL_MEMBER

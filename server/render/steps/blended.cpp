@@ -88,7 +88,7 @@ void recordPeelSelect(const FrameContext& frame, const vk::Rect2D& part, uint32_
     const auto depth = attachment(targets.layer_depth, LoadOp::eClear, farDepth());
     const Rendering rendering(frame, part, colors, &depth);
     bindLayer(frame, targets.selectSet(layer));
-    drawGroups(frame, GeometryPass::kPeelSelect, frame.draws.transparent, layer);
+    drawGroups(frame, GeometryPass::kPeelSelect, frame.draws.transparent.groups, layer);
 }
 
 // What that looks like, under the layers before.
@@ -99,7 +99,7 @@ void recordPeelShade(const FrameContext& frame, const vk::Rect2D& part, uint32_t
     const auto depth = attachment(targets.layer_depth, LoadOp::eLoad);
     const Rendering rendering(frame, part, colors, &depth);
     bindLayer(frame, targets.selectedSet(layer));
-    drawGroups(frame, GeometryPass::kPeelShade, frame.draws.transparent, layer);
+    drawGroups(frame, GeometryPass::kPeelShade, frame.draws.transparent.groups, layer);
 }
 
 // Pixels that have yet another layer, by an occlusion query.
@@ -112,7 +112,7 @@ void recordPeelCount(const FrameContext& frame, const vk::Rect2D& part, uint32_t
         const auto depth = attachment(targets.layer_depth, LoadOp::eClear, farDepth());
         const Rendering rendering(frame, part, {}, &depth);
         bindLayer(frame, targets.selectSet(layers));
-        drawGroups(frame, GeometryPass::kPeelCount, frame.draws.transparent, layers);
+        drawGroups(frame, GeometryPass::kPeelCount, frame.draws.transparent.groups, layers);
     }
     counter.end(frame.slot.cmd);
 }
@@ -124,8 +124,49 @@ void recordWeighted(const FrameContext& frame, const vk::Rect2D& part) {
                                attachment(targets.weights, LoadOp::eClear, clearColor(0, 0))};
     const auto depth = attachment(frame.slot.targets->depth, LoadOp::eLoad);
     const Rendering rendering(frame, part, colors, &depth);
-    drawGroups(frame, GeometryPass::kWeighted, frame.draws.transparent);
+    drawGroups(frame, GeometryPass::kWeighted, frame.draws.transparent.groups);
 }
+
+// Solid depth to where the rasteriser tests it.
+void handDepthOver(const FrameContext& frame) {
+    if (frame.plan.geometry == SolidGeometry::kComputeIds) {
+        recordDepthHandover(frame);
+    }
+}
+
+// Behind what transmits light, in whatever way the others are blended.
+class BlendedBehind final : public Step {
+  public:
+    explicit BlendedBehind(SceneResources& /*scene*/) {}
+
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
+        passes.push_back(
+            {pass::kTransparentBehind, timeOver(cost(costs), costs.load().size.drawn)});
+    }
+    [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
+        return costs.shadedLoop(costs.unit().fragment);
+    }
+    void record(const FrameContext& frame) const override {
+        handDepthOver(frame);
+        inParts(frame, frame.drawn(), cost(frame.costs), recordPart);
+    }
+
+  private:
+    static RegionCost cost(const FrameCosts& costs) {
+        return costs.layered(costs.load().draws.transparent);
+    }
+    static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
+        const auto pass = GeometryPass::kTransparentBehind;
+        inGroups(frame, pass, frame.draws.transparent.groups, [&](const auto& groups, bool) {
+            const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd,
+                                       pass::kTransparentBehind);
+            const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
+            const auto depth = attachment(frame.slot.targets->depth, LoadOp::eLoad);
+            const Rendering rendering(frame, part, colors, &depth);
+            drawGroups(frame, pass, groups);
+        });
+    }
+};
 
 class Blended final : public Step {
   public:
@@ -191,28 +232,14 @@ class Blended final : public Step {
 Result<void> Blended::build(const StepInputs& inputs, const FramePlan& /*frame*/) {
     drawn_ = inputs.settings.size;
     const uint32_t most = (plan().way & kPeeled) != 0 ? inputs.settings.peel_layers : 0;
-    const uint32_t triangle_count = inputs.draws.transparent_triangle_count;
+    const uint32_t triangle_count = inputs.draws.transparent.triangle_count;
     layer_count_ = std::min(most, triangle_count);
     counts_overflow_ = most > 0 && triangle_count > most;
     return {};
 }
 
 RegionCost Blended::cost(const FrameCosts& costs) {
-    const auto& unit = costs.unit();
-    return {Seconds(costs.load().draws.transparent_triangle_count * unit.triangle),
-            [&costs](const vk::Rect2D& region) {
-                const auto& of = costs.unit();
-                double sum = 0;
-                for (const vk::Rect2D& part : costs.load().draws.transparent_parts) {
-                    const vk::Rect2D both = common(part, region);
-                    if (both.extent.width > 0) {
-                        sum += areaOf(both) * of.surface_pixel +
-                               costs.load().lit_surfaces * costs.lit(both, of.fragment);
-                    }
-                }
-                return Seconds(sum + areaOf(region) * of.depth_pixel);
-            },
-            costs.load().lit_surfaces * costs.loop(unit.fragment)};
+    return costs.layered(costs.load().draws.transparent);
 }
 
 void Blended::addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const {
@@ -247,9 +274,8 @@ void Blended::prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) {
 
 void Blended::record(const FrameContext& frame) const {
     const Transparency transparency = transparencyOf(plan());
-    if (frame.plan.geometry == SolidGeometry::kComputeIds &&
-        transparency != Transparency::kPeeled) { // which only loads solid depth
-        recordDepthHandover(frame);
+    if (transparency != Transparency::kPeeled) { // which only loads solid depth
+        handDepthOver(frame);
     }
     switch (transparency) {
     case Transparency::kSorted:
@@ -271,7 +297,7 @@ void Blended::record(const FrameContext& frame) const {
 
 void Blended::recordSorted(const FrameContext& frame, const vk::Rect2D& part) const {
     const auto pass = GeometryPass::kTransparent;
-    inGroups(frame, pass, frame.draws.transparent, [&](const auto& groups, bool first) {
+    inGroups(frame, pass, frame.draws.transparent.groups, [&](const auto& groups, bool first) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransparent);
         const auto& sums = overUnlit() ? targetsOf(frame).sums : frame.slot.targets->radiance;
         const auto load = overUnlit() && first ? LoadOp::eClear : LoadOp::eLoad;
@@ -359,16 +385,24 @@ std::optional<StepPlan> planOfBlended(const PlanInputs& inputs) {
                         transparency == Transparency::kPeeled ? inputs.settings.peel_layers : 0};
 }
 
-std::vector<Use> usesOfBlended(const FramePlan& frame, const StepPlan& plan) {
-    std::vector uses = withLights({use::vertices(), use::depthTested(),
-                                   use::sampled(Resource::kDepth, Stage::eFragmentShader),
-                                   use::drawn(Resource::kRadiance)},
-                                  Stage::eFragmentShader);
-    if (frame.geometry == SolidGeometry::kComputeIds && (plan.way & kPeeled) == 0) {
+// tested: as the rasteriser's depth.
+std::vector<Use> usesOfBlending(const FramePlan& frame, bool tested) {
+    std::vector uses =
+        withLights({use::vertices(), use::depthTested(),
+                    use::sampled(Resource::kDepth, Stage::eFragmentShader),
+                    use::sampled(Resource::kTransmissiveDepth, Stage::eFragmentShader),
+                    use::drawn(Resource::kRadiance)},
+                   Stage::eFragmentShader);
+    if (frame.geometry == SolidGeometry::kComputeIds && tested) {
         uses.push_back(use::copied(Resource::kDepth));
         uses.push_back(
             {Resource::kWords, Stage::eCopy, Access::eTransferRead | Access::eTransferWrite});
     }
+    return uses;
+}
+
+std::vector<Use> usesOfBlended(const FramePlan& frame, const StepPlan& plan) {
+    std::vector uses = usesOfBlending(frame, (plan.way & kPeeled) == 0);
     if ((plan.way & kOverUnlit) != 0) {
         uses.push_back(use::stored(Resource::kRadiance));
     }
@@ -400,6 +434,24 @@ std::string wordsOfBlended(const PlanInputs& inputs, const StepPlan* plan) {
 }
 
 } // namespace
+
+const StepRow kBlendedBehindStep{
+    .name = pass::kTransparentBehind,
+    .part = StepPart::kPicture,
+    .plan =
+        [](const PlanInputs& inputs) {
+            return inputs.facts.transparent_visible && inputs.facts.transmissive_visible
+                       ? std::optional(StepPlan{})
+                       : std::nullopt;
+        },
+    .uses = [](const FramePlan& frame, const StepPlan&) { return usesOfBlending(frame, true); },
+    .words =
+        [](const PlanInputs&, const StepPlan* plan) {
+            return std::string(plan != nullptr ? "transparent surfaces behind others that transmit "
+                                                 "light: blended before these"
+                                               : "");
+        },
+    .make = makeStep<BlendedBehind>};
 
 const StepRow kBlendedStep{.name = pass::kTransparent,
                            .part = StepPart::kPicture,

@@ -37,8 +37,10 @@ class Fragments final : public Step {
             return;
         }
         drawGroups(frame, GeometryPass::kInstances, frame.draws.solid);
-        if (!frame.draws.transparent.empty()) {
-            drawGroups(frame, GeometryPass::kInstances, frame.draws.transparent);
+        for (const LayeredDraws* draws : {&frame.draws.transmissive, &frame.draws.transparent}) {
+            if (!draws->groups.empty()) {
+                drawGroups(frame, GeometryPass::kInstances, draws->groups);
+            }
         }
     }
 };

@@ -9,6 +9,7 @@
 namespace froxel::render {
 
 extern const StepRow kBackgroundStep;
+extern const StepRow kBlendedBehindStep;
 extern const StepRow kBlendedStep;
 extern const StepRow kBloomStep;
 extern const StepRow kDebugViewStep;
@@ -36,6 +37,8 @@ extern const StepRow kReadbackStep;
 extern const StepRow kShadowsStep;
 extern const StepRow kTonemapStep;
 extern const StepRow kToonStep;
+extern const StepRow kTransmissionDepthStep;
+extern const StepRow kTransmissionStep;
 extern const StepRow kWiresStep;
 
 inline constexpr std::array kOrder = {
@@ -61,6 +64,9 @@ inline constexpr std::array kOrder = {
     &kBackgroundStep,
     &kFogStep,
     &kExposureStep,
+    &kTransmissionDepthStep,
+    &kBlendedBehindStep,
+    &kTransmissionStep,
     &kBlendedStep,
     // Over all of the linear picture.
     &kBloomStep,

@@ -32,17 +32,21 @@ uint32_t toneOf(const FramePlan& plan, MaterialFlags material_flags) {
     return (material_flags & io::kMaterialUnlit) != 0 ? plan.tone_output_flags : 0U;
 }
 
-// The variant of a pass for a group: only the flags that the pass's shader looks at.
-VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup& group) {
+// The variant of a pass for a group: only the flags that the pass's shader looks at. layer: of
+// passes that draw several.
+VariantKey
+variant(const FrameContext& frame, GeometryPass pass, const DrawGroup& group, uint32_t layer = 0) {
     const auto& plan = frame.plan;
     switch (pass) {
     case GeometryPass::kDepth:
     case GeometryPass::kOverdraw:
     case GeometryPass::kInstances:
         return {hasHoles(group.material_flags) ? group.material_flags : 0U, 0, 0};
+    case GeometryPass::kTransmissionDepth:
+        return {0, 0, layer > 0 ? io::kOutputBehindTransmissive : 0U};
     case GeometryPass::kPeelSelect:
     case GeometryPass::kPeelCount:
-        return {};
+        return {0, 0, plan.blended_output_flags & io::kOutputBeforeTransmissive};
     case GeometryPass::kGbuffer:
     case GeometryPass::kGbufferAfterDepth:
         return {group.material_flags & ~plan.gbuffer_unused_material_flags, 0,
@@ -53,6 +57,15 @@ VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup
         return {group.material_flags & ~plan.forward_unused_material_flags,
                 plan.forward_light_flags,
                 plan.blended_output_flags | toneOf(plan, group.material_flags)};
+    case GeometryPass::kTransparentBehind:
+        return {group.material_flags & ~plan.forward_unused_material_flags,
+                plan.forward_light_flags,
+                (plan.blended_output_flags & ~io::kOutputBeforeTransmissive) |
+                    io::kOutputBehindTransmissive | toneOf(plan, group.material_flags)};
+    case GeometryPass::kTransmission:
+        return {group.material_flags & ~plan.forward_unused_material_flags,
+                plan.forward_light_flags,
+                plan.blended_output_flags & ~io::kOutputBeforeTransmissive};
     default:
         return {group.material_flags & ~plan.forward_unused_material_flags,
                 plan.forward_light_flags, 0};
@@ -113,8 +126,7 @@ void drawGroups(const FrameContext& frame,
                 uint32_t layer) {
     const auto& cmd = frame.slot.cmd;
     auto& pipelines = frame.scene.shared.pipelines;
-    const auto layout =
-        tellsDraws(pass) ? pipelines.toldPipelineLayout() : pipelines.geometryPipelineLayout();
+    const auto layout = pipelines.layoutOf(pass);
     bindGeometry(frame, layout, *frame.slot.frame_set,
                  frame.draws.indices.empty() ? *frame.scene.index_buffer.handle
                                              : frame.slot.upload.buffer(),
@@ -122,7 +134,7 @@ void drawGroups(const FrameContext& frame,
     vk::Pipeline bound;
     io::PeelDraw peel{.first_triangle = 0, .layer = layer};
     for (const DrawGroup& group : groups) {
-        const VariantKey key = variant(frame, pass, group);
+        const VariantKey key = variant(frame, pass, group, layer);
         const auto pipeline = pipelines.geometry(pass, key);
         if (pipeline != bound) {
             cmd.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);

@@ -22,7 +22,7 @@ void inGroups(const FrameContext& frame,
               std::span<const DrawGroup> groups,
               const std::function<void(std::span<const DrawGroup>, bool first)>& record);
 
-// Within a rendering. layer: of the peeling passes, which also need their blend set bound.
+// Within a rendering. layer: of passes that draw several, which also need their set 2 bound.
 void drawGroups(const FrameContext& frame,
                 GeometryPass pass,
                 std::span<const DrawGroup> groups,

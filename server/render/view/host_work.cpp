@@ -105,7 +105,8 @@ FrameFacts HostWork::facts() const {
             .outputs = inputs_.outputs,
             .form = inputs_.form.kind(),
             .layers_visible = layersVisible(),
-            .transparent_visible = !culling_.draws().transparent.empty(),
+            .transparent_visible = !culling_.draws().transparent.groups.empty(),
+            .transmissive_visible = !culling_.draws().transmissive.groups.empty(),
             .unlit_solid = needs.unlit,
             .compute_batches = traits.subgroup_size > 1,
             // Elsewhere a subgroup of fragments may lack some of its invocations at any time.
@@ -183,7 +184,8 @@ FrameCosts HostWork::costs(const FramePlan& plan,
                     .overdraw = std::max(kUsualOverdraw, scene_.overdraw.value_or(0)),
                     .steps = steps};
     const MaterialFlags forward_flags = ~plan.forward_unused_material_flags;
-    for (const auto* groups : {&draws.solid, &draws.transparent}) {
+    for (const auto* groups :
+         {&draws.solid, &draws.transparent.groups, &draws.transmissive.groups}) {
         for (const DrawGroup& group : *groups) {
             load.lit_surfaces =
                 std::max(load.lit_surfaces, litSurfaces(group.material_flags & forward_flags));

@@ -529,9 +529,9 @@ TEST(Materials, WhatDoesNotExist_IsGoneWithout) {
 
 TEST(Extensions, UnsupportedOptional_IsIgnoredWithAWarning) {
     SceneFile file;
-    file.useExtension("KHR_materials_transmission");
+    file.useExtension("KHR_materials_subsurface");
     EXPECT_THAT(test::warningLines(loaded(file.load())),
-                ElementsAre(HasSubstr("KHR_materials_transmission")));
+                ElementsAre(HasSubstr("KHR_materials_subsurface")));
 }
 
 TEST(Extensions, TextureWithoutSupportedSource_IsIgnoredWithAWarning) {

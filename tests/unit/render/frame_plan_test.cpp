@@ -100,6 +100,41 @@ TEST(FramePlan, Deferred_GlassInView_AddsBlendingAndToneMap) {
     EXPECT_EQ(packer(p)->row, &kTonemapStep);
 }
 
+TEST(FramePlan, TransmissiveSurfaceInView_IsDrawnBetweenBlendedOnes) {
+    FrameFacts facts = kLit;
+    facts.transmissive_visible = true;
+    const auto alone = plan(Renderer::kClusteredDeferred, facts);
+    EXPECT_TRUE(has(alone, kTransmissionDepthStep) && has(alone, kTransmissionStep));
+    EXPECT_TRUE(storesRadiance(alone));
+    EXPECT_FALSE(has(alone, kBlendedBehindStep) || has(alone, kBlendedStep));
+    EXPECT_EQ(alone.blended_output_flags, 0U);
+    EXPECT_EQ(packer(alone)->row, &kTonemapStep);
+    facts.transparent_visible = true;
+    const auto both = plan(Renderer::kClusteredDeferred, facts);
+    EXPECT_TRUE(has(both, kBlendedBehindStep) && has(both, kBlendedStep));
+    EXPECT_NE(both.blended_output_flags & io::kOutputBeforeTransmissive, 0U);
+    facts.transmissive_visible = false;
+    const auto blended = plan(Renderer::kClusteredDeferred, facts);
+    EXPECT_FALSE(has(blended, kBlendedBehindStep) || has(blended, kTransmissionStep));
+    EXPECT_EQ(blended.blended_output_flags, 0U);
+}
+
+TEST(FramePlan, Transmission_PeelsAsManyLayersAsBlendedOnesAre) {
+    FrameFacts facts = kLit;
+    facts.transmissive_visible = true;
+    settings::ViewSettings settings;
+    settings.peel_layers = 7;
+    const auto layers = [&] { return planOf(settings, facts).find(kTransmissionStep)->count; };
+    EXPECT_EQ(layers(), 4U);
+    settings.transparency = settings::Transparency::kPeeled;
+    EXPECT_EQ(layers(), 7U);
+    settings.shading = settings::ShadingModel::kLambert;
+    const auto lambert = planOf(settings, facts);
+    EXPECT_EQ(lambert.forward_unused_material_flags & kTransmissionFlags, 0U);
+    settings.debug.view = settings::DebugView::kNormal;
+    EXPECT_FALSE(has(planOf(settings, facts), kTransmissionStep));
+}
+
 TEST(FramePlan, Transparency_IsPlannedWhereSomethingIsBlended) {
     settings::ViewSettings settings;
     settings.transparency = settings::Transparency::kPeeled;

@@ -175,6 +175,31 @@ TEST(SceneNeeds, DiffuseTransmission_SetsItsFlagsWhereItHasStrength) {
     EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], own) << "nothing is dimmed";
 }
 
+TEST(SceneNeeds, Transmission_IsNeitherSolidNorBlended) {
+    auto m = plain();
+    m.roughness = 0;
+    m.transmission_texture.texture = 0;
+    m.thickness_texture.texture = 0;
+    m.volume.thickness_m = 1;
+    m.emissive = {1, 1, 1};
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], 0U) << "nothing passes";
+    m.transmission.strength = 0.5F;
+    const MaterialFlags own = textureFlag(io::transmission_slot) | textureFlag(io::thickness_slot) |
+                              io::kMaterialTransmission;
+    const SceneNeeds clear = findNeeds(sceneWith(m));
+    EXPECT_EQ(clear.material_flags[0], own);
+    EXPECT_TRUE(clear.transmissive);
+    EXPECT_FALSE(clear.blended || clear.layers || clear.wide_gbuffer) << "not in the G-buffer";
+    EXPECT_EQ(litSurfaces(clear.material_flags[0]), 2) << "its other side is lit, too";
+    m.metallic = 1;
+    EXPECT_FALSE(findNeeds(sceneWith(m)).transmissive) << "metal stops light";
+    m.metallic_roughness_texture.texture = 0;
+    EXPECT_TRUE(findNeeds(sceneWith(m)).transmissive) << "it may be metal in places";
+    const SceneNeeds without = findNeeds(sceneWith(m), false);
+    EXPECT_FALSE(without.transmissive) << "a device without room for layers draws it solid";
+    EXPECT_TRUE(without.wide_gbuffer);
+}
+
 TEST(SceneNeeds, UnlitMaterial_DropsWhatItDoesNotShow) {
     auto m = plain();
     m.unlit = true;

@@ -1,0 +1,375 @@
+// Surfaces that light passes as through glass. Their layers are peeled from the eye; then each, the
+// farthest first, is drawn over the picture, of which it sees a copy: what is solid, and the layers
+// behind it.
+#include "embedded.h"
+#include "gpu/pipeline.h"
+#include "interface/constants.h"
+#include "render/frame/frame_context.h"
+#include "render/frame/need_list.h"
+#include "render/frame/step.h"
+#include "render/pipelines/barrier.h"
+#include "render/pipelines/pass_names.h"
+#include "render/pipelines/screen_groups.h"
+#include "render/pipelines/shared_pipeline.h"
+#include "render/steps/order.h"
+#include "render/steps/packing.h"
+#include "render/steps/transmission_targets.h"
+#include "render/surfaces/geometry_draws.h"
+#include "render/surfaces/rendering_scope.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace froxel::render {
+
+namespace {
+
+using Access = vk::AccessFlagBits2;
+using LoadOp = vk::AttachmentLoadOp;
+using Stage = vk::PipelineStageFlagBits2;
+
+// Of a pixel, where transparency is not peeled, which has a number of its own.
+constexpr uint32_t kMostLayers = 4;
+
+// Shared by every view.
+class BehindPipelines {
+  public:
+    explicit BehindPipelines(DeviceResources& shared)
+        : device_(shared.device),
+          layout_(gpu::makePipelineLayout(device_,
+                                          {shared.pipelines.frameLayout(),
+                                           shared.pipelines.screenLayout(), levelLayout(shared)})),
+          level_layout_(gpu::makePipelineLayout(device_, {levelLayout(shared)})),
+          made_(shared.timeline, shared.variants, settings::kToneMapNames.size()),
+          level(gpu::makeComputePipeline(
+              device_, shaders::behind_level_comp(), {}, *level_layout_, "level behind")) {}
+
+    // May throw VariantsMissing.
+    [[nodiscard]] vk::Pipeline copy(uint32_t output_flags) {
+        return *made_.findOrMake(output_flags, [=, this] {
+            return gpu::makeComputePipeline(device_, shaders::behind_comp(),
+                                            specConstants({0, 0, output_flags}, device_.traits()),
+                                            *layout_, pass::kBehind);
+        });
+    }
+    [[nodiscard]] vk::PipelineLayout layout() const { return *layout_; }
+    [[nodiscard]] vk::PipelineLayout levelLayout() const { return *level_layout_; }
+
+  private:
+    static vk::DescriptorSetLayout levelLayout(DeviceResources& shared) {
+        return *shared.stored<TransmissionLayouts>().level_layout;
+    }
+
+    const gpu::Device& device_;
+    vk::raii::PipelineLayout layout_;
+    vk::raii::PipelineLayout level_layout_;
+    VariantCache<uint32_t> made_;
+
+  public:
+    SharedPipeline level;
+};
+
+const TransmissionTargets& targetsOf(const FrameContext& frame) {
+    return frame.slot.step_targets.get<TransmissionTargets>();
+}
+
+void bindTransmission(const FrameContext& frame, vk::DescriptorSet set) {
+    frame.slot.cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
+                                      frame.scene.shared.pipelines.transmissionPipelineLayout(), 2,
+                                      set, {});
+}
+
+// Of a region, in texels of a level of half the sides; with what its neighbours take of it. Corners
+// are those of workgroups.
+vk::Rect2D coarser(const vk::Rect2D& region, const vk::Extent2D& extent) {
+    constexpr auto kGroup = static_cast<int32_t>(io::kScreenGroup);
+    const auto low = [](int32_t at) { return std::max((at / 2 - 1) / kGroup * kGroup, 0); };
+    const auto high = [](int32_t at, uint32_t side, uint32_t most) {
+        return std::min((at + static_cast<int32_t>(side) + 1) / 2 + 1, static_cast<int32_t>(most));
+    };
+    const vk::Offset2D from{low(region.offset.x), low(region.offset.y)};
+    return {
+        from,
+        {static_cast<uint32_t>(high(region.offset.x, region.extent.width, extent.width) - from.x),
+         static_cast<uint32_t>(high(region.offset.y, region.extent.height, extent.height) -
+                               from.y)}};
+}
+
+// What holds all parts, with a corner that is a workgroup's.
+vk::Rect2D around(std::span<const vk::Rect2D> parts) {
+    constexpr auto kGroup = static_cast<int32_t>(io::kScreenGroup);
+    vk::Offset2D low{INT32_MAX, INT32_MAX};
+    vk::Offset2D high{0, 0};
+    for (const vk::Rect2D& part : parts) {
+        low.x = std::min(low.x, part.offset.x / kGroup * kGroup);
+        low.y = std::min(low.y, part.offset.y / kGroup * kGroup);
+        high.x = std::max(high.x, part.offset.x + static_cast<int32_t>(part.extent.width));
+        high.y = std::max(high.y, part.offset.y + static_cast<int32_t>(part.extent.height));
+    }
+    if (high.x <= low.x || high.y <= low.y) {
+        return {};
+    }
+    return {low, {static_cast<uint32_t>(high.x - low.x), static_cast<uint32_t>(high.y - low.y)}};
+}
+
+// Once over the surfaces, lit or not.
+RegionCost surfaceCost(const FrameCosts& costs) {
+    return costs.layered(costs.load().draws.transmissive);
+}
+
+class TransmissionDepth final : public Step {
+  public:
+    explicit TransmissionDepth(SceneResources& scene) : scene_(scene) {}
+
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
+        passes.push_back({pass::kTransmissionDepth,
+                          shape_.layer_count * timeOver(costs.depth(), costs.load().size.drawn)});
+    }
+    void addMemory(NeedList& need) const override {
+        const TransmissionImages images = transmissionImages(drawn_, shape_);
+        need.image("picture behind", images.behind);
+        for (uint32_t layer = 0; layer < shape_.layer_count; ++layer) {
+            need.image("transmissive layer depth", images.layer_depth);
+        }
+    }
+
+    void freeUnfit(const ViewTargets* view) override {
+        if (targets_ && (view == nullptr || !targets_->fits(shape_, *view))) {
+            targets_.reset();
+        }
+    }
+    void freeTargets() override { targets_.reset(); }
+    void prepare(FrameSlot& slot, FrameBlocks& blocks) override {
+        if (targets_ && !targets_->fits(shape_, *slot.targets)) {
+            targets_.reset(); // before its successor takes memory
+        }
+        if (!targets_) {
+            targets_ = std::make_shared<TransmissionTargets>(scene_.shared, shape_, slot.targets);
+        }
+        slot.step_targets.hold(targets_);
+        blocks[io::kTransmissiveDepthBinding].image = *targets_->layer_depths.front().view;
+    }
+    void record(const FrameContext& frame) const override {
+        for (uint32_t layer = 0; layer < shape_.layer_count; ++layer) {
+            if (layer > 0) {
+                nextRasterPass(frame.slot.cmd);
+            }
+            inParts(frame, frame.drawn(), frame.costs.depth(),
+                    [layer](const FrameContext& at, const vk::Rect2D& part) {
+                        recordPart(at, part, layer);
+                    });
+        }
+    }
+
+  private:
+    Result<void> build(const StepInputs& inputs, const FramePlan& /*frame*/) override {
+        drawn_ = inputs.size.drawn;
+        shape_ = transmissionShape(scene_, inputs, plan().count);
+        return {};
+    }
+    static void recordPart(const FrameContext& frame, const vk::Rect2D& part, uint32_t layer) {
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransmissionDepth);
+        const auto& targets = targetsOf(frame);
+        const auto depth = attachment(targets.layer_depths[layer], LoadOp::eClear, farDepth());
+        const Rendering rendering(frame, part, {}, &depth);
+        bindTransmission(frame, targets.depthSet(layer));
+        drawGroups(frame, GeometryPass::kTransmissionDepth, frame.draws.transmissive.groups, layer);
+    }
+
+    SceneResources& scene_;
+    settings::Size drawn_;
+    TransmissionShape shape_;
+    std::shared_ptr<TransmissionTargets> targets_; // null: the last frame has none
+};
+
+class Transmission final : public Step {
+  public:
+    explicit Transmission(SceneResources& scene) : scene_(scene) {}
+
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override;
+    [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
+        return costs.shadedLoop(costs.unit().fragment);
+    }
+    void record(const FrameContext& frame) const override {
+        for (uint32_t layer = shape_.layer_count; layer-- > 0;) {
+            recordBehind(frame, layer);
+            recordLayer(frame, layer);
+        }
+    }
+
+  private:
+    Result<void> build(const StepInputs& inputs, const FramePlan& /*frame*/) override {
+        drawn_ = inputs.size.drawn;
+        shape_ = transmissionShape(scene_, inputs, plan().count);
+        covered_ = around(inputs.draws.transmissive.parts);
+        const bool elsewhere = shape_.bends || shape_.level_count > 1;
+        seen_ = elsewhere ? vk::Rect2D{{0, 0}, {drawn_.width_px, drawn_.height_px}} : covered_;
+        return {};
+    }
+    // Of what the farthest layer sees; of the others what differs from that, where surfaces are.
+    [[nodiscard]] const vk::Rect2D& regionBehind(uint32_t layer) const {
+        return layer + 1 == shape_.layer_count ? seen_ : covered_;
+    }
+    [[nodiscard]] static RegionCost behindCost(const FrameCosts& costs, const vk::Rect2D& region);
+    [[nodiscard]] Seconds levelsCost(const FrameCosts& costs, const vk::Rect2D& region) const;
+    void recordBehind(const FrameContext& frame, uint32_t layer) const;
+    void recordLevels(const FrameContext& frame, vk::Rect2D region) const;
+    static void recordLayer(const FrameContext& frame, uint32_t layer);
+
+    SceneResources& scene_;
+    settings::Size drawn_;
+    TransmissionShape shape_;
+    vk::Rect2D covered_; // by surfaces
+    vk::Rect2D seen_;    // what these may see
+};
+
+RegionCost Transmission::behindCost(const FrameCosts& costs, const vk::Rect2D& region) {
+    const double each = costs.unit().screen_pixel;
+    return {Seconds(0), [each, region](const vk::Rect2D& part) {
+                return Seconds(areaOf(common(part, region)) * each);
+            }};
+}
+
+// A third as many texels as the finest level has.
+Seconds Transmission::levelsCost(const FrameCosts& costs, const vk::Rect2D& region) const {
+    return Seconds(shape_.level_count > 1 ? areaOf(region) * costs.unit().screen_pixel / 3 : 0.0);
+}
+
+void Transmission::addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const {
+    Seconds behind{0};
+    for (uint32_t layer = 0; layer < shape_.layer_count; ++layer) {
+        const vk::Rect2D& region = regionBehind(layer);
+        behind += timeOver(behindCost(costs, region), drawn_) + levelsCost(costs, region);
+    }
+    passes.push_back({pass::kBehind, behind});
+    passes.push_back(
+        {pass::kTransmission, shape_.layer_count * timeOver(surfaceCost(costs), drawn_)});
+}
+
+void Transmission::recordBehind(const FrameContext& frame, uint32_t layer) const {
+    const vk::Rect2D& region = regionBehind(layer);
+    // the picture, what earlier layers still look up -> loads and stores of compute
+    barrier(frame.slot.cmd, Stage::eColorAttachmentOutput | Stage::eFragmentShader,
+            Access::eColorAttachmentWrite, Stage::eComputeShader, use::kLoadStore);
+    inParts(frame, frame.drawn(), behindCost(frame.costs, region),
+            [&region](const FrameContext& at, const vk::Rect2D& part) {
+                const vk::Rect2D both = common(part, region);
+                if (both.extent.width == 0) {
+                    return;
+                }
+                const gpu::PassScope scope(at.slot.timestamps, at.slot.cmd, pass::kBehind);
+                auto& pipelines = at.scene.shared.stored<BehindPipelines>();
+                at.slot.cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
+                                         pipelines.copy(at.plan.tone_output_flags));
+                const std::array sets = {*at.slot.frame_set, *at.slot.screen_set,
+                                         targetsOf(at).levelSet(0)};
+                at.slot.cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.layout(),
+                                               0, sets, {});
+                dispatchOver(at.slot.cmd, both);
+            });
+    if (shape_.level_count > 1) {
+        recordLevels(frame, region);
+    }
+    // the picture behind -> lookups; loads of the picture -> blending
+    barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
+            Stage::eFragmentShader | Stage::eColorAttachmentOutput,
+            Access::eShaderSampledRead | Access::eColorAttachmentRead |
+                Access::eColorAttachmentWrite);
+}
+
+void Transmission::recordLevels(const FrameContext& frame, vk::Rect2D region) const {
+    frame.pieces.add(levelsCost(frame.costs, region));
+    const auto& cmd = frame.slot.cmd;
+    const gpu::PassScope scope(frame.slot.timestamps, cmd, pass::kBehind);
+    auto& pipelines = scene_.shared.stored<BehindPipelines>();
+    pipelines.level.bind(cmd, scene_.shared.variants);
+    const auto& targets = targetsOf(frame);
+    for (uint32_t level = 1; level < shape_.level_count; ++level) {
+        nextComputePass(cmd);
+        region = coarser(region, targets.levelExtent(level));
+        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.levelLayout(), 0,
+                               targets.levelSet(level), {});
+        dispatchOver(cmd, region);
+    }
+}
+
+void Transmission::recordLayer(const FrameContext& frame, uint32_t layer) {
+    const auto pass = GeometryPass::kTransmission;
+    inParts(
+        frame, frame.drawn(), surfaceCost(frame.costs),
+        [=](const FrameContext& of, const vk::Rect2D& part) {
+            inGroups(of, pass, of.draws.transmissive.groups, [&](const auto& groups, bool) {
+                const gpu::PassScope scope(of.slot.timestamps, of.slot.cmd, pass::kTransmission);
+                const auto& targets = targetsOf(of);
+                const std::array colors = {attachment(of.slot.targets->radiance, LoadOp::eLoad)};
+                const auto depth = attachment(targets.layer_depths[layer], LoadOp::eLoad);
+                const Rendering rendering(of, part, colors, &depth);
+                bindTransmission(of, targets.behindSet());
+                drawGroups(of, pass, groups);
+            });
+        });
+}
+
+uint32_t mostLayers(const settings::ViewSettings& settings) {
+    return settings.transparency == settings::Transparency::kPeeled ? settings.peel_layers
+                                                                    : kMostLayers;
+}
+
+std::optional<StepPlan> planOfTransmission(const PlanInputs& inputs) {
+    return inputs.facts.transmissive_visible
+               ? std::optional(StepPlan{.count = mostLayers(inputs.settings)})
+               : std::nullopt;
+}
+
+std::string wordsOfTransmission(const PlanInputs& inputs, const StepPlan* plan) {
+    if (settings::replacesPicture(inputs.plan.debug)) {
+        return {};
+    }
+    return plan == nullptr
+               ? std::string("no surface in view that transmits light: no copy of the picture")
+               : "surfaces in view that transmit light: up to " + std::to_string(plan->count) +
+                     " layers, each drawn over a copy of the picture behind it";
+}
+
+} // namespace
+
+const StepRow kTransmissionDepthStep{
+    .name = pass::kTransmissionDepth,
+    .part = StepPart::kPicture,
+    .plan =
+        [](const PlanInputs& inputs) {
+            auto plan = planOfTransmission(inputs);
+            if (plan && inputs.facts.transparent_visible) {
+                plan->blended_output_flags = io::kOutputBeforeTransmissive;
+            }
+            return plan;
+        },
+    .uses =
+        [](const FramePlan&, const StepPlan&) {
+            return std::vector{
+                use::vertices(),
+                use::sampled(Resource::kDepth, Stage::eFragmentShader),
+                {Resource::kTransmissiveDepth, kDepthStages,
+                 Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite}};
+        },
+    .make = makeStep<TransmissionDepth>};
+
+const StepRow kTransmissionStep{
+    .name = pass::kTransmission,
+    .part = StepPart::kPicture,
+    .plan = planOfTransmission,
+    .uses =
+        [](const FramePlan&, const StepPlan&) {
+            return withLights(
+                {use::vertices(),
+                 use::sampled(Resource::kDepth, Stage::eFragmentShader),
+                 {Resource::kTransmissiveDepth, kDepthStages, Access::eDepthStencilAttachmentRead},
+                 use::loaded(Resource::kRadiance),
+                 use::drawn(Resource::kRadiance)},
+                Stage::eFragmentShader);
+        },
+    .words = wordsOfTransmission,
+    .make = makeStep<Transmission>};
+
+} // namespace froxel::render

@@ -1,0 +1,159 @@
+#include "render/steps/transmission_targets.h"
+
+#include "gpu/pipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+namespace froxel::render {
+
+namespace {
+
+using Type = vk::DescriptorType;
+
+vk::DescriptorImageInfo viewOf(vk::ImageView view, vk::Sampler sampler = {}) {
+    // A null view describes none.
+    return {.sampler = sampler, .imageView = view, .imageLayout = vk::ImageLayout::eGeneral};
+}
+
+vk::WriteDescriptorSet write(const vk::raii::DescriptorSet& set,
+                             uint32_t binding,
+                             Type type,
+                             const vk::DescriptorImageInfo& image) {
+    return {.dstSet = *set,
+            .dstBinding = binding,
+            .descriptorCount = 1,
+            .descriptorType = type,
+            .pImageInfo = &image};
+}
+
+} // namespace
+
+TransmissionShape
+transmissionShape(const SceneResources& scene, const StepInputs& inputs, uint32_t most_layers) {
+    const LayeredDraws& draws = inputs.draws.transmissive;
+    TransmissionShape shape{.layer_count = std::min(most_layers, draws.triangle_count)};
+    const settings::Size& drawn = inputs.size.drawn;
+    const auto all_levels =
+        static_cast<uint32_t>(std::bit_width(std::max(drawn.width_px, drawn.height_px)));
+    for (const DrawGroup& group : draws.groups) {
+        const io::Material& material = scene.material_uniforms[group.material];
+        shape.bends |= material.volume.thickness_m > 0;
+        if (material.roughness > 0 && material.ior > 1) {
+            shape.level_count = all_levels;
+        }
+    }
+    return shape;
+}
+
+TransmissionImages transmissionImages(const settings::Size& drawn, const TransmissionShape& shape) {
+    using Usage = vk::ImageUsageFlagBits;
+    const vk::Extent2D extent{drawn.width_px, drawn.height_px};
+    return {.behind = {.format = Pipelines::kRadianceFormat,
+                       .extent = extent,
+                       .mip_count = shape.level_count,
+                       .usage = Usage::eSampled | Usage::eStorage,
+                       .filtered = true},
+            .layer_depth = {.format = Pipelines::kDepthFormat,
+                            .extent = extent,
+                            .usage = Usage::eDepthStencilAttachment | Usage::eSampled,
+                            .aspect = vk::ImageAspectFlagBits::eDepth}};
+}
+
+TransmissionLayouts::TransmissionLayouts(const DeviceResources& shared)
+    : sampler(shared.device.handle().createSampler(
+          {.magFilter = vk::Filter::eLinear,
+           .minFilter = vk::Filter::eLinear,
+           .mipmapMode = vk::SamplerMipmapMode::eNearest,
+           .addressModeU = vk::SamplerAddressMode::eClampToEdge,
+           .addressModeV = vk::SamplerAddressMode::eClampToEdge,
+           .maxLod = VK_LOD_CLAMP_NONE})),
+      level_layout(gpu::makeSetLayout(
+          shared.device,
+          std::array{vk::DescriptorSetLayoutBinding{0, Type::eCombinedImageSampler, 1,
+                                                    vk::ShaderStageFlagBits::eCompute},
+                     vk::DescriptorSetLayoutBinding{1, Type::eStorageImage, 1,
+                                                    vk::ShaderStageFlagBits::eCompute}})) {}
+
+TransmissionTargets::TransmissionTargets(DeviceResources& shared,
+                                         const TransmissionShape& shape,
+                                         std::shared_ptr<const ViewTargets> view)
+    : arena(shared.device), shape_(shape), view_(std::move(view)),
+      solid_depth_(*view_->solidDepth().view) {
+    const TransmissionImages images = transmissionImages(view_->size.drawn, shape);
+    behind = arena.makeImage(images.behind, "picture behind");
+    for (uint32_t layer = 0; layer < shape.layer_count; ++layer) {
+        layer_depths.push_back(arena.makeImage(images.layer_depth, "transmissive layer depth"));
+    }
+    makeViews(shared.device);
+    writeSets(shared);
+}
+
+void TransmissionTargets::makeViews(const gpu::Device& device) {
+    for (uint32_t level = 0; level < shape_.level_count; ++level) {
+        level_views_.push_back(device.handle().createImageView(
+            {.image = *behind.handle,
+             .viewType = vk::ImageViewType::e2D,
+             .format = behind.format,
+             .subresourceRange = {vk::ImageAspectFlagBits::eColor, level, 1, 0, 1}}));
+        device.setName(*level_views_.back(), "level of the picture behind");
+    }
+}
+
+void TransmissionTargets::writeSets(DeviceResources& shared) {
+    const auto& shared_layouts = shared.stored<TransmissionLayouts>();
+    const uint32_t depth_count = shape_.layer_count + 1;
+    const std::array sizes = {
+        vk::DescriptorPoolSize{Type::eSampledImage, 2 * depth_count},
+        vk::DescriptorPoolSize{Type::eCombinedImageSampler, depth_count + shape_.level_count},
+        vk::DescriptorPoolSize{Type::eStorageImage, shape_.level_count}};
+    pool_ = gpu::makeDescriptorPool(shared.device, sizes, depth_count + shape_.level_count);
+    const auto allocate = [&](vk::DescriptorSetLayout layout, uint32_t count) {
+        const std::vector layouts(count, layout);
+        return shared.device.handle().allocateDescriptorSets(
+            {.descriptorPool = *pool_, .descriptorSetCount = count, .pSetLayouts = layouts.data()});
+    };
+    depth_sets_ = allocate(shared.pipelines.transmissionSetLayout(), depth_count);
+    level_sets_ = allocate(*shared_layouts.level_layout, shape_.level_count);
+    for (uint32_t layer = 0; layer < depth_count; ++layer) {
+        const bool draws = layer == shape_.layer_count;
+        const auto solid = viewOf(solid_depth_);
+        const auto before =
+            viewOf(layer == 0 || draws ? vk::ImageView{} : *layer_depths[layer - 1].view);
+        const auto seen = viewOf(draws ? *behind.view : vk::ImageView{}, *shared_layouts.sampler);
+        shared.device.handle().updateDescriptorSets(
+            {write(depth_sets_[layer], 0, Type::eSampledImage, solid),
+             write(depth_sets_[layer], 1, Type::eSampledImage, before),
+             write(depth_sets_[layer], 2, Type::eCombinedImageSampler, seen)},
+            {});
+    }
+    for (uint32_t level = 0; level < shape_.level_count; ++level) {
+        const auto finer = viewOf(level == 0 ? vk::ImageView{} : *level_views_[level - 1],
+                                  *shared_layouts.sampler);
+        const auto coarser = viewOf(*level_views_[level]);
+        shared.device.handle().updateDescriptorSets(
+            {write(level_sets_[level], 0, Type::eCombinedImageSampler, finer),
+             write(level_sets_[level], 1, Type::eStorageImage, coarser)},
+            {});
+    }
+}
+
+bool TransmissionTargets::fits(const TransmissionShape& shape, const ViewTargets& view) const {
+    return shape_ == shape && view_.get() == &view && solid_depth_ == *view.solidDepth().view;
+}
+
+vk::Extent2D TransmissionTargets::levelExtent(uint32_t level) const {
+    return {std::max(behind.extent.width >> level, 1U),
+            std::max(behind.extent.height >> level, 1U)};
+}
+
+void TransmissionTargets::forEachImage(const Visit& visit) const {
+    visit(behind, vk::ImageAspectFlagBits::eColor);
+    for (const gpu::Image& depth : layer_depths) {
+        visit(depth, vk::ImageAspectFlagBits::eDepth);
+    }
+}
+
+} // namespace froxel::render
