@@ -75,8 +75,8 @@ void placePlants(Stage& stage) {
     }
 }
 
-// In the first bay of the south aisle, where only the camera "Glass" looks: up to nine panes and
-// sides of goblets one behind the other, two of them crossing.
+// In the first bay of the south aisle, where only the camera "Glass" looks: goblets that light
+// passes, in a case of blended panes and behind two that cross.
 void placeGlass(Stage& stage) {
     constexpr float kTop = 0.88F;
     constexpr float kX = -13.7F;
@@ -99,9 +99,9 @@ void placeGlass(Stage& stage) {
         }
     }
     const glm::mat4 beside = moved(kX + 0.08F, kTop, kZ + 0.70F);
-    stage.place(stage.mesh("screen_ruby", glassScreen(Surface::kRubyGlass)),
+    stage.place(stage.mesh("screen_ruby", glassScreen(Surface::kRubyPane)),
                 beside * turnedY(0.75F));
-    stage.place(stage.mesh("screen_cobalt", glassScreen(Surface::kCobaltGlass)),
+    stage.place(stage.mesh("screen_cobalt", glassScreen(Surface::kCobaltPane)),
                 beside * turnedY(2.2F));
 }
 

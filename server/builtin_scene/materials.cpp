@@ -14,6 +14,8 @@
 namespace froxel::builtin_scene {
 namespace {
 
+constexpr float kGlassThickness = 0.007F; // of a goblet's wall, metres
+
 struct Look {
     Surface surface;
     scene::Material material; // without textures
@@ -39,6 +41,16 @@ scene::Material blended(const char* name, float roughness, glm::vec4 color) {
     scene::Material material = opaque(name, roughness);
     material.alpha_mode = scene::AlphaMode::kBlend;
     material.base_color = color;
+    return material;
+}
+
+// tint: of white light that passes a wall of it.
+scene::Material glass(const char* name, glm::vec3 tint) {
+    scene::Material material = opaque(name, 0.03F);
+    material.transmission.strength = 1;
+    material.volume = {.attenuation_color = tint,
+                       .attenuation_m = kGlassThickness,
+                       .thickness_m = kGlassThickness};
     return material;
 }
 
@@ -89,12 +101,13 @@ std::vector<Look> looks() {
         {Surface::kGlass, blended("glass", 0.06F, {0.75F, 0.85F, 0.86F, 0.18F}), std::nullopt},
         {Surface::kStainedGlass, stained, stainedGlassRecipe()},
         {Surface::kWater, blended("water", 0.08F, glm::vec4(1)), waterRecipe()},
-        {Surface::kRubyGlass, blended("ruby_glass", 0.10F, {0.80F, 0.06F, 0.10F, 0.42F}),
+        {Surface::kRubyPane, blended("ruby_pane", 0.10F, {0.80F, 0.06F, 0.10F, 0.42F}),
          std::nullopt},
-        {Surface::kCobaltGlass, blended("cobalt_glass", 0.10F, {0.05F, 0.16F, 0.75F, 0.42F}),
+        {Surface::kCobaltPane, blended("cobalt_pane", 0.10F, {0.05F, 0.16F, 0.75F, 0.42F}),
          std::nullopt},
-        {Surface::kAmberGlass, blended("amber_glass", 0.10F, {0.90F, 0.52F, 0.08F, 0.42F}),
-         std::nullopt},
+        {Surface::kRubyGlass, glass("ruby_glass", {0.86F, 0.20F, 0.25F}), std::nullopt},
+        {Surface::kCobaltGlass, glass("cobalt_glass", {0.22F, 0.36F, 0.90F}), std::nullopt},
+        {Surface::kAmberGlass, glass("amber_glass", {0.95F, 0.66F, 0.22F}), std::nullopt},
         {Surface::kSky, glowing("sky", {0.08F, 0.14F, 0.29F}), std::nullopt},
         {Surface::kFlame, glowing("flame", {6.0F, 3.4F, 1.3F}), std::nullopt},
     };

@@ -30,7 +30,9 @@ enum class Surface : uint32_t {
     kGlass,        // clear panes, blended
     kStainedGlass, // coloured panes, blended, glowing with the sky behind them
     kWater,        // fountain, blended
-    kRubyGlass,    // tinted glass, blended
+    kRubyPane,     // tinted panes, blended
+    kCobaltPane,   // likewise
+    kRubyGlass,    // tinted glass that light passes
     kCobaltGlass,  // likewise
     kAmberGlass,   // likewise
     kSky,          // dusk behind the windows

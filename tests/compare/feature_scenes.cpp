@@ -197,6 +197,45 @@ scene::Scene alphaModes() {
     return maker.scene;
 }
 
+// A row of spheres of glass, each with more of something, before a wall.
+template <class Give>
+scene::Scene glasses(const Give& give) {
+    scene::Scene made = lobes(vec3(1), 0, 0, [&](scene::Material& m, float share) {
+        m.transmission.strength = 1;
+        give(m, share);
+    });
+    SceneMaker maker;
+    maker.scene = std::move(made);
+    scene::Material wall = painted(vec3(1), 0, 1);
+    wall.base_color_texture.texture = addTexture(maker.scene, checks);
+    maker.add(pane(maker.add(wall)), at(2, 0, -1) * glm::scale(glm::dmat4(1), dvec3(6)));
+    return maker.scene;
+}
+
+scene::Scene transmission() {
+    return glasses([](scene::Material& m, float share) {
+        m.base_color = vec4(1, 1 - 0.4F * share, 1 - 0.6F * share, 1);
+        m.roughness = 0.6F * share;
+    });
+}
+
+scene::Scene volume() {
+    return glasses([](scene::Material& m, float share) {
+        m.ior = 1 + share;
+        m.volume = {.attenuation_color = {0.3F, 0.8F, 0.6F},
+                    .attenuation_m = 1,
+                    .thickness_m = 0.2F + 0.6F * share};
+    });
+}
+
+scene::Scene dispersion() {
+    return glasses([](scene::Material& m, float share) {
+        m.ior = 1.6F;
+        m.volume.thickness_m = 0.7F;
+        m.transmission.dispersion = 5 * share;
+    });
+}
+
 scene::Scene vertexColors() {
     SceneMaker maker;
     scene::Primitive p = pane(maker.add(painted({1, 0.8F, 0.8F}, 0, 0.7F)), 4);
@@ -298,6 +337,9 @@ constexpr std::array kFeatures = {
     Feature{"sheen", sheen},
     Feature{"anisotropy", anisotropy},
     Feature{"iridescence", iridescence},
+    Feature{"transmission", transmission},
+    Feature{"volume", volume},
+    Feature{"dispersion", dispersion},
     Feature{"alpha_modes", alphaModes},
     Feature{"vertex_colors", vertexColors},
     Feature{"texture_transform", textureTransform},

@@ -62,10 +62,6 @@ render::FrameInputs peeled(uint32_t layers) {
     return inputs;
 }
 
-glm::dvec3 colorAt(const Picture& picture, uint32_t x, uint32_t y) {
-    return {at(picture, x, y, 0), at(picture, x, y, 1), at(picture, x, y, 2)};
-}
-
 } // namespace
 
 // Case 32. Two panes of one plane, both seen: of equal depths the one that comes last in the scene

@@ -36,7 +36,10 @@ expectExact(render::Renderer& renderer, const render::FrameInputs& inputs, Toon 
 [[nodiscard]] size_t litPixels(const Picture& picture, float least = 0);
 [[nodiscard]] float largest(const Picture& picture);
 
-// A pixel's channel.
+// A pixel's channel, and all of them.
 [[nodiscard]] float at(const Picture& picture, uint32_t x, uint32_t y, uint32_t channel);
+[[nodiscard]] inline glm::dvec3 colorAt(const Picture& picture, uint32_t x, uint32_t y) {
+    return {at(picture, x, y, 0), at(picture, x, y, 1), at(picture, x, y, 2)};
+}
 
 } // namespace froxel::test

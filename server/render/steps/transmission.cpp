@@ -113,9 +113,18 @@ vk::Rect2D around(std::span<const vk::Rect2D> parts) {
     return {low, {static_cast<uint32_t>(high.x - low.x), static_cast<uint32_t>(high.y - low.y)}};
 }
 
-// Once over the surfaces, lit or not.
-RegionCost surfaceCost(const FrameCosts& costs) {
-    return costs.layered(costs.load().draws.transmissive);
+// Each of a surface's pixels is in one of so many layers: the nearest one has as many as there are,
+// up to the whole picture, and the others share what is left.
+RegionCost layerCost(const FrameCosts& costs, uint32_t layer, uint32_t layer_count) {
+    const RegionCost all = costs.layered(costs.load().draws.transmissive);
+    const RegionCost whole = costs.shadedSurfaces(1);
+    return {all.each,
+            [=](const vk::Rect2D& region) {
+                const Seconds sum = all.of(region);
+                const Seconds nearest = std::min(sum, whole.of(region));
+                return layer == 0 ? nearest : (sum - nearest) / (layer_count - 1.0);
+            },
+            all.least};
 }
 
 class TransmissionDepth final : public Step {
@@ -215,7 +224,7 @@ class Transmission final : public Step {
     [[nodiscard]] Seconds levelsCost(const FrameCosts& costs, const vk::Rect2D& region) const;
     void recordBehind(const FrameContext& frame, uint32_t layer) const;
     void recordLevels(const FrameContext& frame, vk::Rect2D region) const;
-    static void recordLayer(const FrameContext& frame, uint32_t layer);
+    void recordLayer(const FrameContext& frame, uint32_t layer) const;
 
     SceneResources& scene_;
     settings::Size drawn_;
@@ -243,8 +252,11 @@ void Transmission::addCosts(const FrameCosts& costs, std::vector<PassEstimate>& 
         behind += timeOver(behindCost(costs, region), drawn_) + levelsCost(costs, region);
     }
     passes.push_back({pass::kBehind, behind});
-    passes.push_back(
-        {pass::kTransmission, shape_.layer_count * timeOver(surfaceCost(costs), drawn_)});
+    Seconds drawn{0};
+    for (uint32_t layer = 0; layer < shape_.layer_count; ++layer) {
+        drawn += timeOver(layerCost(costs, layer, shape_.layer_count), drawn_);
+    }
+    passes.push_back({pass::kTransmission, drawn});
 }
 
 void Transmission::recordBehind(const FrameContext& frame, uint32_t layer) const {
@@ -294,10 +306,10 @@ void Transmission::recordLevels(const FrameContext& frame, vk::Rect2D region) co
     }
 }
 
-void Transmission::recordLayer(const FrameContext& frame, uint32_t layer) {
+void Transmission::recordLayer(const FrameContext& frame, uint32_t layer) const {
     const auto pass = GeometryPass::kTransmission;
     inParts(
-        frame, frame.drawn(), surfaceCost(frame.costs),
+        frame, frame.drawn(), layerCost(frame.costs, layer, shape_.layer_count),
         [=](const FrameContext& of, const vk::Rect2D& part) {
             inGroups(of, pass, of.draws.transmissive.groups, [&](const auto& groups, bool) {
                 const gpu::PassScope scope(of.slot.timestamps, of.slot.cmd, pass::kTransmission);
