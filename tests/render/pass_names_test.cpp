@@ -25,6 +25,7 @@ class PassNames : public SharedGpuTest {};
 TEST_F(PassNames, PassesOfEveryStep_HavePrices) {
     scene::Scene scene = makeRoom();
     scene.materials.at(0).coat = {.strength = 1}; // a layer: the G-buffer has no room for it
+    scene.materials.at(4).transmission.strength = 1;
     render::Renderer renderer(device(), scene);
     std::set<std::string> recorded;
     std::set<const render::StepRow*> had;

@@ -132,8 +132,11 @@ class TransmissionDepth final : public Step {
     explicit TransmissionDepth(SceneResources& scene) : scene_(scene) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        passes.push_back({pass::kTransmissionDepth,
-                          shape_.layer_count * timeOver(costs.depth(), costs.load().size.drawn)});
+        Seconds sum{0};
+        for (uint32_t layer = 0; layer < shape_.layer_count; ++layer) {
+            sum += timeOver(depthCost(costs, clearedBy(layer)), costs.load().size.drawn);
+        }
+        passes.push_back({pass::kTransmissionDepth, sum});
     }
     void addMemory(NeedList& need) const override {
         const TransmissionImages images = transmissionImages(drawn_, shape_);
@@ -164,9 +167,10 @@ class TransmissionDepth final : public Step {
             if (layer > 0) {
                 nextRasterPass(frame.slot.cmd);
             }
-            inParts(frame, frame.drawn(), frame.costs.depth(),
-                    [layer](const FrameContext& at, const vk::Rect2D& part) {
-                        recordPart(at, part, layer);
+            const vk::Rect2D region = clearedBy(layer);
+            inParts(frame, frame.drawn(), depthCost(frame.costs, region),
+                    [layer, region](const FrameContext& at, const vk::Rect2D& part) {
+                        recordPart(at, common(part, region), layer);
                     });
         }
     }
@@ -175,9 +179,23 @@ class TransmissionDepth final : public Step {
     Result<void> build(const StepInputs& inputs, const FramePlan& /*frame*/) override {
         drawn_ = inputs.size.drawn;
         shape_ = transmissionShape(scene_, inputs, plan().count);
+        covered_ = around(inputs.draws.transmissive.parts);
         return {};
     }
+    // Blended surfaces anywhere ask where the nearest layer is.
+    [[nodiscard]] vk::Rect2D clearedBy(uint32_t layer) const {
+        const bool everywhere = layer == 0 && plan().blended_output_flags != 0;
+        return everywhere ? vk::Rect2D{{0, 0}, {drawn_.width_px, drawn_.height_px}} : covered_;
+    }
+    static RegionCost depthCost(const FrameCosts& costs, const vk::Rect2D& region) {
+        const RegionCost depth = costs.depth();
+        return {depth.each,
+                [depth, region](const vk::Rect2D& part) { return depth.of(common(part, region)); }};
+    }
     static void recordPart(const FrameContext& frame, const vk::Rect2D& part, uint32_t layer) {
+        if (part.extent.width == 0) {
+            return;
+        }
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransmissionDepth);
         const auto& targets = targetsOf(frame);
         const auto depth = attachment(targets.layer_depths[layer], LoadOp::eClear, farDepth());
@@ -189,6 +207,7 @@ class TransmissionDepth final : public Step {
     SceneResources& scene_;
     settings::Size drawn_;
     TransmissionShape shape_;
+    vk::Rect2D covered_;                           // by surfaces
     std::shared_ptr<TransmissionTargets> targets_; // null: the last frame has none
 };
 
@@ -225,6 +244,7 @@ class Transmission final : public Step {
     void recordBehind(const FrameContext& frame, uint32_t layer) const;
     void recordLevels(const FrameContext& frame, vk::Rect2D region) const;
     void recordLayer(const FrameContext& frame, uint32_t layer) const;
+    static void drawLayer(const FrameContext& frame, const vk::Rect2D& part, uint32_t layer);
 
     SceneResources& scene_;
     settings::Size drawn_;
@@ -307,20 +327,26 @@ void Transmission::recordLevels(const FrameContext& frame, vk::Rect2D region) co
 }
 
 void Transmission::recordLayer(const FrameContext& frame, uint32_t layer) const {
-    const auto pass = GeometryPass::kTransmission;
-    inParts(
-        frame, frame.drawn(), layerCost(frame.costs, layer, shape_.layer_count),
-        [=](const FrameContext& of, const vk::Rect2D& part) {
-            inGroups(of, pass, of.draws.transmissive.groups, [&](const auto& groups, bool) {
-                const gpu::PassScope scope(of.slot.timestamps, of.slot.cmd, pass::kTransmission);
-                const auto& targets = targetsOf(of);
-                const std::array colors = {attachment(of.slot.targets->radiance, LoadOp::eLoad)};
-                const auto depth = attachment(targets.layer_depths[layer], LoadOp::eLoad);
-                const Rendering rendering(of, part, colors, &depth);
-                bindTransmission(of, targets.behindSet());
-                drawGroups(of, pass, groups);
+    inParts(frame, frame.drawn(), layerCost(frame.costs, layer, shape_.layer_count),
+            [this, layer](const FrameContext& at, const vk::Rect2D& part) {
+                const vk::Rect2D both = common(part, covered_);
+                if (both.extent.width > 0) {
+                    drawLayer(at, both, layer);
+                }
             });
-        });
+}
+
+void Transmission::drawLayer(const FrameContext& frame, const vk::Rect2D& part, uint32_t layer) {
+    const auto pass = GeometryPass::kTransmission;
+    inGroups(frame, pass, frame.draws.transmissive.groups, [&](const auto& groups, bool) {
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransmission);
+        const auto& targets = targetsOf(frame);
+        const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
+        const auto depth = attachment(targets.layer_depths[layer], LoadOp::eLoad);
+        const Rendering rendering(frame, part, colors, &depth);
+        bindTransmission(frame, targets.behindSet());
+        drawGroups(frame, pass, groups);
+    });
 }
 
 uint32_t mostLayers(const settings::ViewSettings& settings) {
