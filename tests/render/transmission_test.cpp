@@ -299,7 +299,31 @@ TEST_F(TransmissionTest, PictureBehind_IsNearWhatRaysSee) {
     }
 }
 
-// Lists are all lights, bit for bit, and pictures that are drawn in pieces are those drawn at once.
+// Of the picture behind only what is seen is made anew: nothing of earlier frames is.
+TEST_F(TransmissionTest, EarlierFrames_AreNotSeen) {
+    for (const float roughness : {0.0F, 0.25F, 0.7F}) {
+        SCOPED_TRACE(roughness);
+        SceneMaker maker = glassRoom();
+        const uint32_t material = maker.add(glass(1.5F, roughness, 0.4F));
+        for (const double x : {-1.0, 0.4}) {
+            glm::dmat4 place(1);
+            place[3] = {x, 0.2 * x, -3, 1};
+            maker.add(sphere(0.3F, 12, material), place);
+        }
+        render::Renderer renderer(device(), maker.scene);
+        render::ViewRenderer moving(renderer);
+        for (const double turn : {0.0, 0.35, -0.5, 0.1}) {
+            auto inputs = inputsOf();
+            inputs.settings.size = {320, 180};
+            inputs.settings.camera =
+                settings::lookAt({0, 0, 0}, {std::sin(turn), 0.1, -std::cos(turn)}, {0, 1, 0});
+            render::ViewRenderer fresh(renderer);
+            EXPECT_EQ(differingFloats(draw(moving, inputs), draw(fresh, inputs)), 0U) << turn;
+        }
+    }
+}
+
+// Lists are all lights, bit for bit.
 TEST_F(TransmissionTest, Lists_AreAllLights) {
     SceneMaker maker = glassRoom();
     maker.add(sphere(0.5F, 12, maker.add(glass(1.5F, 0.3F, 0.5F))),

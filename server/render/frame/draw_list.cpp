@@ -146,7 +146,7 @@ class Builder {
     void addRuns(std::vector<Run> runs, std::vector<DrawGroup>& groups);
     void addMeshlets(const DrawItem& item, std::span<const Visible> meshlets, DrawGroup& group);
     void addCommand(const DrawItem& item, uint32_t first, uint32_t end, DrawGroup& group);
-    [[nodiscard]] vk::Rect2D partOf(const Visible& visible) const;
+    [[nodiscard]] vk::Rect2D partOf(const Visible& visible, float grown_by = 0) const;
 
     const SceneResources& scene_; // what rests of it
     const std::span<const glm::dmat4> instances_;
@@ -375,7 +375,8 @@ void Builder::addSolid(std::vector<Visible>& visible) {
     eraseEmpty(out_.solid);
 }
 
-vk::Rect2D Builder::partOf(const Visible& visible) const {
+// grown_by: in object space.
+vk::Rect2D Builder::partOf(const Visible& visible, float grown_by) const {
     const DrawItem& item = items_[visible.item];
     const Meshlet& m = scene_.meshlets[visible.meshlet];
     const glm::vec3 center = item.bends ? item.primitive.center : m.center;
@@ -385,7 +386,7 @@ vk::Rect2D Builder::partOf(const Visible& visible) const {
                                   glm::length(glm::vec3(view_from_object[1])),
                                   glm::length(glm::vec3(view_from_object[2]))});
     return coveredPart(clip_from_view_, glm::vec3(view_from_object * glm::vec4(center, 1.0F)),
-                       radius * scale, half_size_px_);
+                       (radius + grown_by) * scale, half_size_px_);
 }
 
 // Whole items: blending needs order more than it needs few draws.
@@ -409,6 +410,11 @@ void Builder::addLayered(std::vector<Visible>& visible,
     draws.triangle_count = out_.triangle_count - count_before;
     for (const Visible& v : visible) {
         draws.parts.push_back(partOf(v));
+        const DrawItem& item = items_[v.item];
+        if (isTransmissive(item.material_flags)) {
+            const auto& material = scene_.material_uniforms[item.primitive.material];
+            draws.seen_parts.push_back(partOf(v, material.volume.thickness_m));
+        }
     }
     eraseEmpty(draws.groups);
 }

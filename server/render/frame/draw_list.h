@@ -34,11 +34,14 @@ struct LayeredDraws {
     std::vector<DrawGroup> groups;
     uint32_t triangle_count = 0;
     std::vector<vk::Rect2D> parts; // of the picture, that hold a meshlet each
+    // Those that hold what is seen through the meshlets: as they are, grown by their thickness.
+    std::vector<vk::Rect2D> seen_parts;
 
     void clear() {
         groups.clear();
         triangle_count = 0;
         parts.clear();
+        seen_parts.clear();
     }
 };
 

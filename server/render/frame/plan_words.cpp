@@ -132,6 +132,8 @@ std::vector<std::string> sceneWords(const SceneNeeds& needs) {
         materials("iridescence", io::kMaterialFilm, "no iridescence: no thin films"),
         materials("diffuse transmission", io::kMaterialDiffuseTransmission,
                   "no diffuse transmission: no light from behind"),
+        materials("transmission", io::kMaterialTransmission,
+                  "no transmission: nothing is seen through surfaces"),
         materials("both sides drawn", io::kMaterialDoubleSided,
                   "no double-sided materials: back faces are culled"),
         materials("texture transforms or a second set", io::kMaterialUvTransform,

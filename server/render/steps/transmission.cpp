@@ -113,6 +113,28 @@ vk::Rect2D around(std::span<const vk::Rect2D> parts) {
     return {low, {static_cast<uint32_t>(high.x - low.x), static_cast<uint32_t>(high.y - low.y)}};
 }
 
+// Texels of a level around a point that its lookup takes from, by the spline, by means of finer
+// levels, and by the level after it: a little more.
+constexpr float kReach = 8;
+
+// On every side, within the picture; corners stay those of workgroups.
+vk::Rect2D grown(const vk::Rect2D& region, float by_px, const settings::Size& size) {
+    const auto by = static_cast<int32_t>(std::min(by_px, 65536.0F));
+    const auto low = [by](int32_t at) {
+        constexpr auto kGroup = static_cast<int32_t>(io::kScreenGroup);
+        return std::max(at - by, 0) / kGroup * kGroup;
+    };
+    const vk::Offset2D from{low(region.offset.x), low(region.offset.y)};
+    const auto side = [by](int32_t at, uint32_t extent, int32_t first, uint32_t most) {
+        const int32_t end =
+            std::min(at + static_cast<int32_t>(extent) + by, static_cast<int32_t>(most));
+        return static_cast<uint32_t>(end - first);
+    };
+    return {from,
+            {side(region.offset.x, region.extent.width, from.x, size.width_px),
+             side(region.offset.y, region.extent.height, from.y, size.height_px)}};
+}
+
 // Each of a surface's pixels is in one of so many layers: the nearest one has as many as there are,
 // up to the whole picture, and the others share what is left.
 RegionCost layerCost(const FrameCosts& costs, uint32_t layer, uint32_t layer_count) {
@@ -230,9 +252,14 @@ class Transmission final : public Step {
     Result<void> build(const StepInputs& inputs, const FramePlan& /*frame*/) override {
         drawn_ = inputs.size.drawn;
         shape_ = transmissionShape(scene_, inputs, plan().count);
-        covered_ = around(inputs.draws.transmissive.parts);
-        const bool elsewhere = shape_.bends || shape_.level_count > 1;
-        seen_ = elsewhere ? vk::Rect2D{{0, 0}, {drawn_.width_px, drawn_.height_px}} : covered_;
+        const LayeredDraws& draws = inputs.draws.transmissive;
+        covered_ = around(draws.parts);
+        const float highest = highestLevel(scene_, inputs);
+        levels_built_ = std::min(shape_.level_count, static_cast<uint32_t>(highest) + 2);
+        seen_ = around(draws.seen_parts);
+        if (highest > 0) {
+            seen_ = grown(seen_, std::exp2(std::ceil(highest)) * kReach, drawn_);
+        }
         return {};
     }
     // Of what the farthest layer sees; of the others what differs from that, where surfaces are.
@@ -251,6 +278,7 @@ class Transmission final : public Step {
     TransmissionShape shape_;
     vk::Rect2D covered_; // by surfaces
     vk::Rect2D seen_;    // what these may see
+    uint32_t levels_built_ = 1;
 };
 
 RegionCost Transmission::behindCost(const FrameCosts& costs, const vk::Rect2D& region) {
@@ -317,7 +345,7 @@ void Transmission::recordLevels(const FrameContext& frame, vk::Rect2D region) co
     auto& pipelines = scene_.shared.stored<BehindPipelines>();
     pipelines.level.bind(cmd, scene_.shared.variants);
     const auto& targets = targetsOf(frame);
-    for (uint32_t level = 1; level < shape_.level_count; ++level) {
+    for (uint32_t level = 1; level < levels_built_; ++level) {
         nextComputePass(cmd);
         region = coarser(region, targets.levelExtent(level));
         cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.levelLayout(), 0,

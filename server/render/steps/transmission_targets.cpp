@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 namespace froxel::render {
@@ -31,21 +32,23 @@ vk::WriteDescriptorSet write(const vk::raii::DescriptorSet& set,
 
 } // namespace
 
+float highestLevel(const SceneResources& scene, const StepInputs& inputs) {
+    float roughness = 0; // as shaders/lib/layer_types.glsl has it
+    for (const DrawGroup& group : inputs.draws.transmissive.groups) {
+        const io::Material& material = scene.material_uniforms[group.material];
+        roughness =
+            std::max(roughness, material.roughness * std::clamp(2 * material.ior - 2, 0.0F, 1.0F));
+    }
+    return roughness * std::log2(static_cast<float>(inputs.size.drawn.width_px));
+}
+
 TransmissionShape
 transmissionShape(const SceneResources& scene, const StepInputs& inputs, uint32_t most_layers) {
-    const LayeredDraws& draws = inputs.draws.transmissive;
-    TransmissionShape shape{.layer_count = std::min(most_layers, draws.triangle_count)};
     const settings::Size& drawn = inputs.size.drawn;
     const auto all_levels =
         static_cast<uint32_t>(std::bit_width(std::max(drawn.width_px, drawn.height_px)));
-    for (const DrawGroup& group : draws.groups) {
-        const io::Material& material = scene.material_uniforms[group.material];
-        shape.bends |= material.volume.thickness_m > 0;
-        if (material.roughness > 0 && material.ior > 1) {
-            shape.level_count = all_levels;
-        }
-    }
-    return shape;
+    return {.layer_count = std::min(most_layers, inputs.draws.transmissive.triangle_count),
+            .level_count = highestLevel(scene, inputs) > 0 ? all_levels : 1};
 }
 
 TransmissionImages transmissionImages(const settings::Size& drawn, const TransmissionShape& shape) {

@@ -21,13 +21,15 @@ namespace froxel::render {
 struct TransmissionShape {
     uint32_t layer_count = 0;
     uint32_t level_count = 1;
-    bool bends = false; // some show what is not straight behind them
     bool operator==(const TransmissionShape&) const = default;
 };
 
 // As frames draw it. most_layers: at most so many.
 [[nodiscard]] TransmissionShape
 transmissionShape(const SceneResources& scene, const StepInputs& inputs, uint32_t most_layers);
+
+// How far up in levels what is in view looks.
+[[nodiscard]] float highestLevel(const SceneResources& scene, const StepInputs& inputs);
 
 struct TransmissionImages {
     gpu::ImageInfo behind;
