@@ -11,14 +11,16 @@ export interface Note {
 const kScattering = 'rough metal: three.js restores light that scatters more than once';
 const kRounding = 'three.js increases the roughness of curved surfaces';
 
+const kThroughRough = 'three.js lets no lamp shine through rough glass';
+
 const kNotes: Readonly<Record<string, Note>> = {
-  'glass-table': { why: 'Froxel has no KHR_materials_transmission' },
   alien: { why: kScattering },
   cakeBirthday: { why: kScattering },
   cat: { why: kRounding },
-  love: { why: 'Froxel has no KHR_materials_transmission' },
+  love: { why: kThroughRough },
   metallic_roughness: { why: kScattering },
   punctual: { ownLights: true, why: "three.js lets a spot's edge fall off by another curve" },
+  transmission: { why: kThroughRough },
   unlit: { why: 'three.js tone-maps unlit surfaces' },
   specular: { why: 'three.js reduces each channel of diffuse light by its own reflection' },
 };
