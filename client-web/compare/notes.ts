@@ -17,7 +17,7 @@ const kNotes: Readonly<Record<string, Note>> = {
   alien: { why: kScattering },
   cakeBirthday: { why: kScattering },
   cat: { why: kRounding },
-  love: { why: kThroughRough },
+  love: { why: `${kRounding}; it lets no lamp shine through rough glass` },
   metallic_roughness: { why: kScattering },
   punctual: { ownLights: true, why: "three.js lets a spot's edge fall off by another curve" },
   transmission: { why: kThroughRough },

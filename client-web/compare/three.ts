@@ -29,7 +29,7 @@ async function byFroxel(scene: string, out: string, view: View, lit: Lit): Promi
   writeFileSync(set, JSON.stringify({ lights: lamps }));
   await render(scene, out, [
     ...['--camera', cameraText(view), '--size', `${kSize.width}x${kSize.height}`, '--exposure', String(exposure)],
-    ...['--lights', '0', '--ambient', '0', '--exposure-mode', 'fixed'],
+    ...['--lights', '0', '--ambient', '0', '--exposure-mode', 'fixed', '--scene-light-intensity', '1'],
     ...['--background-color', kBackground.join(','), '--background-gradient', '0'],
     ...(environment === null
       ? ['--environment', 'off']

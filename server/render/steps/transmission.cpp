@@ -135,8 +135,9 @@ vk::Rect2D grown(const vk::Rect2D& region, float by_px, const settings::Size& si
              side(region.offset.y, region.extent.height, from.y, size.height_px)}};
 }
 
-// Each of a surface's pixels is in one of so many layers: the nearest one has as many as there are,
-// up to the whole picture, and the others share what is left.
+// Each of a surface's pixels is in one of so many layers. The parts of meshlets overlap by far more
+// than their triangles do: the nearest layer is taken to have all of them, up to the whole picture,
+// and the others together no more than that.
 RegionCost layerCost(const FrameCosts& costs, uint32_t layer, uint32_t layer_count) {
     const RegionCost all = costs.layered(costs.load().draws.transmissive);
     const RegionCost whole = costs.shadedSurfaces(1);
@@ -144,7 +145,8 @@ RegionCost layerCost(const FrameCosts& costs, uint32_t layer, uint32_t layer_cou
             [=](const vk::Rect2D& region) {
                 const Seconds sum = all.of(region);
                 const Seconds nearest = std::min(sum, whole.of(region));
-                return layer == 0 ? nearest : (sum - nearest) / (layer_count - 1.0);
+                const Seconds others = std::min(sum - nearest, nearest);
+                return layer == 0 ? nearest : others / (layer_count - 1.0);
             },
             all.least};
 }
