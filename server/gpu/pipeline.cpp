@@ -31,8 +31,19 @@ struct SpecInfo {
 };
 
 vk::PipelineColorBlendAttachmentState attachmentState(Blend blend) {
-    using Factor = vk::BlendFactor;
     using Component = vk::ColorComponentFlagBits;
+    using Factor = vk::BlendFactor;
+    constexpr auto kAll = Component::eR | Component::eG | Component::eB | Component::eA;
+    if (blend == Blend::kDim) {
+        return {.blendEnable = VK_TRUE,
+                .srcColorBlendFactor = Factor::eZero,
+                .dstColorBlendFactor = Factor::eSrcColor,
+                .colorBlendOp = vk::BlendOp::eAdd,
+                .srcAlphaBlendFactor = Factor::eOne,
+                .dstAlphaBlendFactor = Factor::eOne,
+                .alphaBlendOp = vk::BlendOp::eMax,
+                .colorWriteMask = kAll};
+    }
     const bool over = blend == Blend::kNone || blend == Blend::kOver;
     const bool weighted = blend == Blend::kWeighted;
     const Factor taken = blend == Blend::kUnder ? Factor::eOneMinusDstAlpha : Factor::eOne;
@@ -44,7 +55,7 @@ vk::PipelineColorBlendAttachmentState attachmentState(Blend blend) {
             .srcAlphaBlendFactor = weighted ? Factor::eZero : taken,
             .dstAlphaBlendFactor = weighted ? Factor::eOneMinusSrcAlpha : kept,
             .alphaBlendOp = vk::BlendOp::eAdd,
-            .colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA};
+            .colorWriteMask = kAll};
 }
 
 vk::PipelineDepthStencilStateCreateInfo depthState(const GraphicsPipelineInfo& info) {

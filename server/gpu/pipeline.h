@@ -21,6 +21,7 @@ enum class Blend : uint8_t {
     kOver, // source over destination, premultiplied
     kAdd,
     kUnder,    // source under destination, both premultiplied
+    kDim,      // colours are multiplied, the larger alpha stays
     kWeighted, // colours are added, destination alpha is multiplied by 1 - source alpha
 };
 

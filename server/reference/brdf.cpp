@@ -408,9 +408,11 @@ glm::dvec3 radiance(const Surface& s,
             sum += fromRectangle(s, model, light);
         } else if (d2 < light.radius2) { // most lights are too far away
             const double share = attenuation(light, to_light);
-            if (share > 0 && (!light.shadowed || open(s.position, light.position))) {
-                sum += light.color *
-                       fromDirection(s, model, to_light / std::sqrt(d2), share, light.bands_middle);
+            const double passes =
+                share > 0 && light.shadowed ? open(s.position, light.position) : 1;
+            if (share > 0 && passes > 0) {
+                sum += light.color * fromDirection(s, model, to_light / std::sqrt(d2),
+                                                   share * passes, light.bands_middle);
             }
         }
     }

@@ -63,8 +63,8 @@ struct Surface {
     bool unlit = false;
 };
 
-// Whether nothing stands between two points, relative to the eye.
-using Open = std::function<bool(const glm::dvec3& from, const glm::dvec3& to)>;
+// The share of light that passes from one point to another, relative to the eye.
+using Open = std::function<double(const glm::dvec3& from, const glm::dvec3& to)>;
 
 struct Model {
     settings::ShadingModel shading = settings::ShadingModel::kPbr;

@@ -117,7 +117,8 @@ glm::dvec3 Medium::scattered(const PointLight& light, const Ray& ray, double len
         const double d2 = squared(beside) + t * t;
         const double d = std::sqrt(std::max(d2, 1e-30));
         const glm::dvec3 point = ray.origin + away * (along + t);
-        if (light.shadowed && open_ && !open_(point, light.position)) {
+        const double passes = light.shadowed && open_ ? open_(point, light.position) : 1;
+        if (passes == 0) {
             continue;
         }
         const double window = squared(std::max(0.0, 1 - squared(d2 / light.radius2)));
@@ -131,7 +132,7 @@ glm::dvec3 Medium::scattered(const PointLight& light, const Ray& ray, double len
         }
         const double lost = opticalDepth(ray.origin, point) + opticalDepth(point, light.position);
         const double spread_m = (squared(scale) + t * t) / scale * half_angle * weight;
-        sum += densityAt(point) * std::exp(-lost) * window * cone * reached * spread_m;
+        sum += passes * densityAt(point) * std::exp(-lost) * window * cone * reached * spread_m;
     }
     return light.color * sum;
 }

@@ -18,7 +18,8 @@ UvPlane uvOf(const std::vector<glm::vec2>& uv, const uint32_t* index) {
 Occluders::Occluders(const scene::Scene& scene,
                      std::span<const Placement> placements,
                      const Materials& materials)
-    : scene_(scene), placements_(placements), materials_(materials), tree_(casters()) {}
+    : scene_(scene), placements_(placements), materials_(materials), tree_(casters()),
+      transmissive_(trianglesOf(scene, placements, transmits)) {}
 
 std::vector<TreeTriangle> Occluders::casters() const {
     return trianglesOf(scene_, placements_, [](const scene::Material& m) {
@@ -54,6 +55,42 @@ bool Occluders::blocks(const TreeTriangle& caster, const Ray& ray) const {
 bool Occluders::between(const glm::dvec3& from, const glm::dvec3& to) const {
     const Ray ray{from, to - from};
     return tree_.any(ray, 1, [&](const TreeTriangle& caster) { return blocks(caster, ray); });
+}
+
+double Occluders::shareOf(const TreeTriangle& surface, const Ray& ray) const {
+    const PlanePoint hit = meetPlane(ray, surface.placed);
+    if (!hit.inside() || !(hit.distance > kNearest) || !(hit.distance < 1)) {
+        return 1;
+    }
+    const auto& p =
+        scene_.meshes[scene_.instances[surface.instance].mesh].primitives[surface.primitive];
+    const SurfacePoint point =
+        surfaceAlong(ray, hit.weights, placements_[surface.instance], p, surface.triangle);
+    const Surface s = materials_.at(p.material, point);
+    const auto& material = scene_.materials[p.material];
+    if (material.alpha_mode == scene::AlphaMode::kMask &&
+        materials_.alpha(p.material, point) < static_cast<double>(material.alpha_cutoff)) {
+        return 1;
+    }
+    const Transmission& t = s.transmission;
+    glm::dvec3 color = s.base_color * (t.strength * (1 - s.metallic));
+    if (material.volume.thickness_m > 0) {
+        color = glm::sqrt(color * glm::pow(t.attenuation, glm::dvec3(t.thickness)));
+    }
+    return glm::dot(glm::mix(glm::dvec3(1), color, s.alpha), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+double Occluders::passes(const glm::dvec3& from, const glm::dvec3& to) const {
+    if (between(from, to)) {
+        return 0;
+    }
+    const Ray ray{from, to - from};
+    double share = 1;
+    (void)transmissive_.any(ray, 1, [&](const TreeTriangle& surface) {
+        share *= shareOf(surface, ray);
+        return false;
+    });
+    return share;
 }
 
 } // namespace froxel::reference

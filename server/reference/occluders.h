@@ -25,15 +25,21 @@ class Occluders {
     // Whether anything lies strictly between two points, relative to the eye. What is nearer to
     // `from` than a millionth of the way is taken for the surface there.
     [[nodiscard]] bool between(const glm::dvec3& from, const glm::dvec3& to) const;
+    // The share of light, as luminance, that passes: none where anything lies between; else what
+    // surfaces that transmit light leave of it, each by its strength and colour. One with a body
+    // takes the root of that, as there is another side.
+    [[nodiscard]] double passes(const glm::dvec3& from, const glm::dvec3& to) const;
 
   private:
     [[nodiscard]] std::vector<TreeTriangle> casters() const;
+    [[nodiscard]] double shareOf(const TreeTriangle& surface, const Ray& ray) const;
     [[nodiscard]] bool blocks(const TreeTriangle& caster, const Ray& ray) const;
 
     const scene::Scene& scene_;
     std::span<const Placement> placements_;
     const Materials& materials_;
     TriangleTree tree_;
+    TriangleTree transmissive_;
 };
 
 } // namespace froxel::reference

@@ -105,7 +105,7 @@ class Shader {
         if (settings.shadows.light_count > 0) {
             occluders_.emplace(scene, placements_, materials_);
             open_ = [this](const glm::dvec3& from, const glm::dvec3& to) {
-                return !occluders_->between(from, to);
+                return occluders_->passes(from, to);
             };
         }
     }

@@ -59,7 +59,9 @@ FROXEL_CONST uint kLightEdges = 1U << 16;
 FROXEL_CONST uint kLightShadows = 1U << 17;     // some local lights have shadow maps
 FROXEL_CONST uint kLightEnvironment = 1U << 18; // light from around, in the ambient light's place
 FROXEL_CONST uint kLightBands = 1U << 19;       // with kLightToon: each light in Frame::toon_bands
-FROXEL_CONST uint kLightRim = 1U << 20;         // toon: more light where a surface turns away
+// With kLightShadows: some of what they send passes surfaces that transmit light.
+FROXEL_CONST uint kLightTransmitted = 1U << 21;
+FROXEL_CONST uint kLightRim = 1U << 20; // toon: more light where a surface turns away
 
 // Alpha of radiance: how much of the background is covered; this where a solid surface is unlit,
 // and between 1 and this where something thin is before one.

@@ -21,10 +21,11 @@ FROXEL_CONST uint kShadowAtlasBinding = 10U;
 FROXEL_CONST uint kAreasBinding = 11U; // rectangular lights
 FROXEL_CONST uint kLtcBinding = 12U;   // linearly transformed cosines, which those take
 FROXEL_CONST uint kEnvironmentBinding = 13U;
-FROXEL_CONST uint kLevelsBinding = 14U;            // of what is around
-FROXEL_CONST uint kLobesBinding = 15U;             // what lobes reflect of it
-FROXEL_CONST uint kTransmissiveDepthBinding = 16U; // of the nearest surface that transmits light
-FROXEL_CONST uint kFrameBindingCount = 17U;
+FROXEL_CONST uint kLevelsBinding = 14U;             // of what is around
+FROXEL_CONST uint kLobesBinding = 15U;              // what lobes reflect of it
+FROXEL_CONST uint kTransmissiveDepthBinding = 16U;  // of the nearest surface that transmits light
+FROXEL_CONST uint kTransmittanceAtlasBinding = 17U; // beside the shadow maps'
+FROXEL_CONST uint kFrameBindingCount = 18U;
 
 FROXEL_IO_NAMESPACE_END
 

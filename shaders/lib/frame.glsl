@@ -36,6 +36,7 @@ layout(set = 0, binding = kShadowAtlasBinding) uniform texture2D shadow_atlas;
 layout(set = 0,
        binding = kAreasBinding) uniform textureBuffer area_texels; // io::AreaLight: 2 texels
 layout(set = 0, binding = kLtcBinding) uniform textureBuffer ltc_texels;
+layout(set = 0, binding = kTransmittanceAtlasBinding) uniform texture2D transmittance_atlas;
 layout(set = 0, binding = kTransmissiveDepthBinding) uniform texture2D transmissive_depth;
 
 #ifdef FROXEL_VISIBILITY

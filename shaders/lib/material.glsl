@@ -107,7 +107,24 @@ vec3 unpackNormalMap(vec4 texel, float scale) {
     return sampled;
 }
 
+float metalness(VertexData v) {
+    return hasTexture(metallic_roughness_slot)
+               ? material.metallic * sampleMaterial(metallic_roughness, v).b
+               : material.metallic;
+}
+
 #ifdef FROXEL_LAYERED
+// Of white light, straight through the body.
+vec3 leftOfBody(VertexData v) {
+    float thickness_m = material.volume.thickness_m;
+    if (hasTexture(thickness_slot)) {
+        thickness_m *= sampleMaterial(thickness, v).g;
+    }
+    return material.volume.attenuation_m > 0.0
+               ? attenuated(material.volume.attenuation_color,
+                            thickness_m / material.volume.attenuation_m)
+               : vec3(1.0);
+}
 // Bumps of what it covers are not the coat's.
 Coat shadeCoat(VertexData v, vec3 position_view, bool front) {
     Coat coat = Coat(material.coat.strength, material.coat.roughness, normalize(v.normal_view));
@@ -186,13 +203,8 @@ DiffuseTransmission shadeDiffuseTransmission(VertexData v) {
     if (hasTexture(diffuse_transmission_color_slot)) {
         through.color *= sampleMaterial(diffuse_transmission_color, v).rgb;
     }
-    if (material.volume.thickness_m > 0.0 && material.volume.attenuation_m > 0.0) {
-        float thickness_m = material.volume.thickness_m;
-        if (hasTexture(thickness_slot)) {
-            thickness_m *= sampleMaterial(thickness, v).g;
-        }
-        through.color *= attenuated(material.volume.attenuation_color,
-                                    thickness_m / material.volume.attenuation_m);
+    if (material.volume.thickness_m > 0.0) {
+        through.color *= leftOfBody(v);
     }
     return through;
 }

@@ -31,6 +31,14 @@ float shadowTap(ivec2 texel, float along, float near_m) {
     return stored <= near_m ? 1.0 : 0.0;
 }
 
+// What passes surfaces that transmit light, before what is `along` metres away; depths have 11
+// bits.
+float transmittanceTap(ivec2 texel, float along, float near_m) {
+    vec4 passes = texelFetch(transmittance_atlas, texel, 0);
+    precise float stored = passes.a * along;
+    return stored <= near_m * 1.002 ? 1.0 : dot(passes.rgb, vec3(0.2126, 0.7152, 0.0722));
+}
+
 // Four comparisons, weighted bilinearly: a penumbra one texel wide.
 //
 // Bias. A texel's depth is that of the surface at its centre, up to a texel away from the receiver
@@ -73,6 +81,12 @@ uint shadowLevel(Surface s, uint index) {
     float b = shadowTap(t + ivec2(1, 0), along, map.z);
     float c = shadowTap(t + ivec2(0, 1), along, map.z);
     float e = shadowTap(t + ivec2(1, 1), along, map.z);
+    if (hasLight(kLightTransmitted)) {
+        a *= transmittanceTap(t, along, map.z);
+        b *= transmittanceTap(t + ivec2(1, 0), along, map.z);
+        c *= transmittanceTap(t + ivec2(0, 1), along, map.z);
+        e *= transmittanceTap(t + ivec2(1, 1), along, map.z);
+    }
     precise float low = fma(f.x, b - a, a);
     precise float high = fma(f.x, e - c, c);
     precise float share = fma(f.y, high - low, low);

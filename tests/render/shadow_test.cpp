@@ -333,6 +333,79 @@ bool anyNear(int x, int y, Holds holds) {
 
 } // namespace
 
+// Of a pane of this material between a lamp and the ground, as a share of what arrives without one:
+// at a point of the ground.
+namespace {
+
+float shareBehind(gpu::Device& device, const scene::Material& material, const dvec3& point) {
+    SceneMaker bare;
+    bare.add(ground(8)).point({0, 4, 0}, 20, 8);
+    SceneMaker glazed;
+    glazed.add(ground(8)).point({0, 4, 0}, 20, 8);
+    glazed.add(quad({-1, 2, 1}, {2, 0, 0}, {0, 0, -2}, 1, glazed.add(material)));
+    const auto inputs = inputsFrom({0, 1.5, 9}, {0, 0, 0}, {1, 512});
+    return lightAt(drawn(glazed.scene, inputs, device), inputs.settings, point) /
+           lightAt(drawn(bare.scene, inputs, device), inputs.settings, point);
+}
+
+} // namespace
+
+// A map has fifteen levels of light, so a share is within half of one.
+TEST_F(Shadows, SurfacesThatTransmitLight_DimIt) {
+    constexpr float kHalfLevel = 0.5F / 15 + 0.002F;
+    const dvec3 behind(0.3, 0, 0.4);
+    const dvec3 beside(3.2, 0, 0);
+    scene::Material glass = chalk();
+    glass.transmission.strength = 1;
+    EXPECT_NEAR(shareBehind(device(), glass, behind), 1, kHalfLevel);
+    glass.transmission.strength = 0.6F;
+    EXPECT_NEAR(shareBehind(device(), glass, behind), 0.6F, kHalfLevel);
+    EXPECT_FLOAT_EQ(shareBehind(device(), glass, beside), 1);
+    glass.base_color = {0.2F, 0.2F, 0.2F, 1};
+    EXPECT_NEAR(shareBehind(device(), glass, behind), 0.12F, kHalfLevel);
+    glass.base_color = {1, 1, 1, 0.5F}; // half of it is not there
+    glass.alpha_mode = scene::AlphaMode::kBlend;
+    EXPECT_NEAR(shareBehind(device(), glass, behind), 0.8F, kHalfLevel);
+    glass.alpha_mode = scene::AlphaMode::kOpaque;
+    glass.transmission.strength = 1;
+    glass.volume = {.attenuation_color = {0.25F, 0.25F, 0.25F}, // one of two sides
+                    .attenuation_m = 0.1F,
+                    .thickness_m = 0.1F};
+    EXPECT_NEAR(shareBehind(device(), glass, behind), 0.5F, kHalfLevel);
+    glass.metallic = 1;
+    EXPECT_NEAR(shareBehind(device(), glass, behind), 0, kHalfLevel);
+}
+
+// As rays have it where no edge is near, before and behind the glass, and after a turn of the
+// camera, for which maps are kept.
+TEST_F(Shadows, LightThroughGlass_IsAsRaysHaveIt) {
+    SceneMaker maker;
+    scene::Material glass = chalk();
+    glass.base_color = {0.9F, 0.8F, 0.7F, 1};
+    glass.transmission.strength = 0.7F;
+    glass.double_sided = true;
+    maker.add(ground(8)).point({0, 4, 0}, 20, 8);
+    maker.add(quad({-1.5, 1, 1.5}, {3, 0, 0}, {0, 0, -3}, 1, maker.add(glass)));
+    maker.add(quad({-0.5, 2, 0.5}, {1, 0, 0}, {0, 0, -1}, 1, 0)); // before the glass, and solid
+    render::Renderer renderer(device(), maker.scene);
+    render::ViewRenderer view(renderer);
+    for (const double x : {0.0, 2.0}) {
+        auto inputs = inputsFrom({x, 3, 8}, {0, 0, 0}, {1, 512});
+        inputs.settings.size = {160, 90};
+        const Picture picture = draw(view, inputs);
+        const auto seen = render::readVisibility(renderer, maker.scene, inputs);
+        ASSERT_TRUE(seen);
+        const auto by_rays = reference::shade(maker.scene, inputs.settings, 0, *seen);
+        ASSERT_TRUE(by_rays);
+        size_t differing = 0;
+        for (size_t i = 0; i < picture.radiance.size(); ++i) {
+            const float value = by_rays->rgb[i];
+            differing += std::abs(picture.radiance[i] - value) > 0.04F * (value + 0.02F) ? 1U : 0U;
+        }
+        EXPECT_LT(differing, picture.radiance.size() / 25); // at edges, a texel wide
+    }
+}
+
 // Against rays in double: pixels differ only within two texels of a shadow's edge. A pixel's texels
 // are unknown here, so its neighbours stand for them: where none differs in how much of the light
 // it gets, there is no edge.

@@ -54,7 +54,8 @@ uint32_t lightFlags(const settings::ViewSettings& settings,
                     bool compute) {
     uint32_t flags = 0;
     if (facts.hasLight(io::kLightLocal)) {
-        constexpr uint32_t kOthers = io::kLightShadows | io::kLightDirectional | io::kLightEdges;
+        constexpr uint32_t kOthers =
+            io::kLightShadows | io::kLightTransmitted | io::kLightDirectional | io::kLightEdges;
         flags |= facts.lights & ~kOthers;
         flags |= lists ? io::kLightLists | sliceFlags(settings.grid.law) : 0U;
         if (compute) {

@@ -17,7 +17,7 @@ namespace {
 using Stage = vk::ShaderStageFlagBits;
 using Type = vk::DescriptorType;
 
-constexpr std::array<std::string_view, 15> kGeometryNames = {"depth prepass",
+constexpr std::array<std::string_view, 16> kGeometryNames = {"depth prepass",
                                                              "gbuffer",
                                                              "gbuffer after depth",
                                                              "forward",
@@ -30,6 +30,7 @@ constexpr std::array<std::string_view, 15> kGeometryNames = {"depth prepass",
                                                              "peel count",
                                                              "transmission depth",
                                                              "transmission",
+                                                             "transmittance",
                                                              "overdraw",
                                                              "instances"};
 constexpr std::string_view kBlendResolveName = "blend resolve";
@@ -188,6 +189,8 @@ gpu::Spirv fragmentShader(GeometryPass pass, const VariantKey& key) {
         return extended ? overdraw_masked_extended_frag() : overdraw_masked_frag();
     case GeometryPass::kInstances:
         return extended ? instance_masked_extended_frag() : instance_masked_frag();
+    case GeometryPass::kTransmittance:
+        return extended ? transmittance_extended_frag() : transmittance_frag();
     case GeometryPass::kGbuffer:
     case GeometryPass::kGbufferAfterDepth:
         if (extraFormat(key.output_flags) != vk::Format::eUndefined) {
@@ -235,6 +238,8 @@ std::vector<vk::Format> colorFormats(GeometryPass pass, uint32_t output_flags) {
         return {Pipelines::kRadianceFormat, Pipelines::kBlendWeightFormat};
     case GeometryPass::kPeelSelect:
         return {Pipelines::kPeelKeyFormat};
+    case GeometryPass::kTransmittance:
+        return {Pipelines::kTransmittanceFormat};
     default:
         return {Pipelines::kRadianceFormat};
     }
@@ -269,6 +274,10 @@ void describeTests(gpu::GraphicsPipelineInfo& info, GeometryPass pass) {
         break;
     case GeometryPass::kPeelCount:
         info.depth_compare = vk::CompareOp::eGreater;
+        break;
+    case GeometryPass::kTransmittance:
+        info.depth_write = false;
+        info.blend = gpu::Blend::kDim;
         break;
     case GeometryPass::kOverdraw:
         info.blend = gpu::Blend::kAdd;

@@ -31,6 +31,7 @@ enum class GeometryPass : uint8_t {
     kPeelCount,         // pixels that have yet another
     kTransmissionDepth, // which surface that transmits light each pixel's next layer is
     kTransmission,      // forward, that layer over what is behind it
+    kTransmittance,     // of shadow maps: what passes surfaces that transmit light
     kOverdraw,          // counts fragments, writing depth
     kInstances,         // whose the nearest fragment is, writing depth
 };
@@ -97,6 +98,7 @@ inline constexpr auto kFrameBindings = [] {
     all[io::kLevelsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
     all[io::kLobesBinding] = {kTexels, vk::Format::eR32G32Sfloat};
     all[io::kTransmissiveDepthBinding] = {Type::eSampledImage};
+    all[io::kTransmittanceAtlasBinding] = {Type::eSampledImage};
     return all;
 }();
 
@@ -110,6 +112,7 @@ class Pipelines {
     static constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
     static constexpr vk::Format kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
     static constexpr vk::Format kBlendWeightFormat = vk::Format::eR32Sfloat;
+    static constexpr vk::Format kTransmittanceFormat = vk::Format::eR16G16B16A16Sfloat;
     static constexpr vk::Format kPeelKeyFormat = vk::Format::eR32G32Uint; // depth's bits, order
     // Variants kept: of surfaces, where a frame takes one for each kind of material, and of passes
     // over the picture. llvmpipe takes 4 MB for one.

@@ -46,7 +46,7 @@ glm::dmat3 axesAlong(const glm::dvec3& direction) {
 
 bool castsShadows(const SceneResources& scene, const DrawItem& item) {
     if (!isSolid(item)) {
-        return false;
+        return isTransmissive(item.material_flags);
     }
     const bool glows = scene.material_uniforms[item.primitive.material].emissive != glm::vec3(0) &&
                        (item.material_flags & textureFlag(io::emissive_slot)) == 0;
@@ -140,6 +140,7 @@ class FaceDraws {
                 }
                 out_.commands.push_back(draw.command);
                 made.bends = made.bends || draw.bends;
+                out_.transmits = out_.transmits || isTransmissive(draw.flags);
                 out_.triangle_count += draw.command.indexCount / 3;
                 ++out_.groups.back().command_count;
             }
@@ -198,9 +199,10 @@ class FaceDraws {
         if (run.end == run.first) {
             return;
         }
-        const bool masked = (item.material_flags & io::kMaterialMask) != 0;
-        draws_[face].push_back({masked ? item.material_flags : 0U,
-                                masked ? item.primitive.material : 0U,
+        constexpr uint32_t kLookedAt = io::kMaterialMask | io::kMaterialTransmission;
+        const bool looked_at = (item.material_flags & kLookedAt) != 0;
+        draws_[face].push_back({looked_at ? item.material_flags : 0U,
+                                looked_at ? item.primitive.material : 0U,
                                 item.bends,
                                 {.indexCount = run.end - run.first,
                                  .instanceCount = 1,
@@ -299,6 +301,7 @@ void ShadowFrame::clear() {
     rows.clear();
     commands.clear();
     triangle_count = 0;
+    transmits = false;
 }
 
 ShadowPlace shadowPlace(const light::LightRig::Place& place, double reach_m, uint32_t size_px) {

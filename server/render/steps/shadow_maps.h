@@ -44,6 +44,7 @@ struct ShadowFrame {
     std::vector<vk::DrawIndexedIndirectCommand> commands; // empty: nothing casts a shadow
     io::Frame uniforms{};                                 // of the passes that draw maps
     uint32_t triangle_count = 0;
+    bool transmits = false; // some casters let light pass
 
     void clear();
 };
@@ -70,9 +71,9 @@ shadowPlace(const light::LightRig::Place& place, double reach_m, uint32_t size_p
 [[nodiscard]] bool meetsFace(const glm::dvec3& center, double radius, uint32_t face, double scale);
 
 // Chooses lights (light/shadow_choice.h) and culls casters, meshlet by meshlet, against each face's
-// pyramid and the light's ball. Opaque and masked surfaces cast shadows, from both sides; blended
-// ones do not, nor do those that glow all over (an emissive factor without a texture): a lamp's
-// light stands inside its bulb. Pure.
+// pyramid and the light's ball. Opaque and masked surfaces cast shadows, from both sides, and
+// those that transmit light dim it; blended ones do not, nor do those that glow all over (an
+// emissive factor without a texture): a lamp's light stands inside its bulb. Pure.
 void buildShadows(const SceneResources& scene,
                   const ScenePose& pose,
                   const light::FrameLights& lights,

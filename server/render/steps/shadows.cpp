@@ -15,6 +15,7 @@
 #include "render/steps/shadow_maps.h"
 #include "render/steps/view_steps.h"
 #include "render/surfaces/geometry_draws.h"
+#include "render/surfaces/rendering_scope.h"
 
 #include <algorithm>
 #include <array>
@@ -64,6 +65,14 @@ gpu::ImageInfo atlasImage(const settings::Shadows& settings, uint32_t light_coun
             .aspect = vk::ImageAspectFlagBits::eDepth};
 }
 
+// What passes surfaces that transmit light, of such an atlas.
+gpu::ImageInfo transmittanceImage(const settings::Shadows& settings, uint32_t light_count) {
+    using Usage = vk::ImageUsageFlagBits;
+    return {.format = Pipelines::kTransmittanceFormat,
+            .extent = extentOf(tilesFor(settings, light_count), settings.size_px),
+            .usage = Usage::eColorAttachment | Usage::eSampled};
+}
+
 // What maps were drawn from: equal faces need no drawing.
 struct ShadowsDrawn {
     ShadowFrame frame;
@@ -74,15 +83,24 @@ struct ShadowsDrawn {
 struct ShadowTargets final : StepTargets {
     ShadowTargets(const gpu::Device& device,
                   const settings::Shadows& settings,
-                  uint32_t light_count)
+                  uint32_t light_count,
+                  bool transmits)
         : size_px(settings.size_px), tile_count(tilesFor(settings, light_count)), arena(device),
-          atlas(arena.makeImage(atlasImage(settings, light_count), "shadow atlas")) {}
+          atlas(arena.makeImage(atlasImage(settings, light_count), "shadow atlas")) {
+        if (transmits) {
+            transmittance =
+                arena.makeImage(transmittanceImage(settings, light_count), "transmittance atlas");
+        }
+    }
 
-    [[nodiscard]] bool fits(const settings::Shadows& settings, uint32_t light_count) const {
-        return size_px == settings.size_px && tile_count == tilesFor(settings, light_count);
+    [[nodiscard]] bool
+    fits(const settings::Shadows& settings, uint32_t light_count, bool transmits) const {
+        return size_px == settings.size_px && tile_count == tilesFor(settings, light_count) &&
+               (*transmittance.handle != vk::Image{}) == transmits;
     }
     void forEachImage(const Visit& visit) const override {
         visit(atlas, vk::ImageAspectFlagBits::eDepth);
+        visit(transmittance, vk::ImageAspectFlagBits::eColor); // of an absent one: nothing
     }
     void forgetDrawn() override { drawn.reset(); }
 
@@ -90,6 +108,7 @@ struct ShadowTargets final : StepTargets {
     uint32_t tile_count;
     gpu::MemoryArena arena;
     gpu::Image atlas;
+    gpu::Image transmittance;          // null handle: no caster lets light pass
     std::optional<ShadowsDrawn> drawn; // that it holds once what is submitted has run
 };
 
@@ -133,6 +152,11 @@ void ShadowSet::write(const gpu::Device& device, vk::Buffer upload, vk::DeviceSi
     device.handle().updateDescriptorSets(writes, {});
 }
 
+// Where no surface that transmits light is: all passes, and none is near.
+vk::ClearValue allPasses() {
+    return vk::ClearColorValue(std::array{1.0F, 1.0F, 1.0F, 0.0F});
+}
+
 class Shadows final : public Step {
   public:
     explicit Shadows(SceneResources& scene) : scene_(scene) {}
@@ -141,6 +165,7 @@ class Shadows final : public Step {
         buildShadows(scene_, inputs.pose, inputs.lights, inputs.settings, inputs.time_s, frame_);
         if (!frame_.commands.empty()) { // else nothing stands before any light
             facts.lights |= io::kLightShadows;
+            facts.lights |= frame_.transmits ? io::kLightTransmitted : 0U;
         }
     }
     void addLoad(const UnitCosts& unit, CostInputs& load) const override {
@@ -156,6 +181,9 @@ class Shadows final : public Step {
     void addMemory(NeedList& need) const override {
         if (drawn_ || targets_) {
             need.image("shadow atlas", atlasImage(settings_, caster_count_));
+            if (frame_.transmits) {
+                need.image("transmittance atlas", transmittanceImage(settings_, caster_count_));
+            }
         }
     }
     void gather(FrameUpload& upload, FrameBlocks& blocks) override;
@@ -172,7 +200,7 @@ class Shadows final : public Step {
     }
 
     void freeUnfit(const ViewTargets* /*view*/) override {
-        if (targets_ && !targets_->fits(settings_, caster_count_)) {
+        if (targets_ && !targets_->fits(settings_, caster_count_, frame_.transmits)) {
             targets_.reset();
         }
     }
@@ -201,7 +229,16 @@ class Shadows final : public Step {
     [[nodiscard]] Seconds faceTime(const FrameCosts& costs) const;
     void
     recordFaces(const FrameContext& frame, std::span<const ShadowFace> faces, bool first) const;
-    void drawFace(const FrameContext& frame, const ShadowFace& face, uint32_t size_px) const;
+    // Of the casters that transmit light, or of the others.
+    void recordCasters(const FrameContext& frame,
+                       std::span<const ShadowFace> faces,
+                       std::span<const vk::RenderingAttachmentInfo> colors,
+                       const vk::RenderingAttachmentInfo& depth,
+                       bool transmissive) const;
+    void drawFace(const FrameContext& frame,
+                  const ShadowFace& face,
+                  uint32_t size_px,
+                  bool transmissive) const;
 
     SceneResources& scene_;
     settings::Shadows settings_;
@@ -219,7 +256,8 @@ class Shadows final : public Step {
 
 void Shadows::chooseFaces() {
     changed_.clear();
-    const bool holds = keeps_ && targets_ && targets_->fits(settings_, caster_count_) &&
+    const bool holds = keeps_ && targets_ &&
+                       targets_->fits(settings_, caster_count_, frame_.transmits) &&
                        !targets_->fresh && targets_->drawn;
     for (size_t i = 0; i < frame_.faces.size(); ++i) {
         const ShadowFace& face = frame_.faces[i];
@@ -249,10 +287,12 @@ void Shadows::prepare(FrameSlot& slot, FrameBlocks& blocks) {
         return;
     }
     if (!targets_) {
-        targets_ = std::make_shared<ShadowTargets>(scene_.shared.device, settings_, caster_count_);
+        targets_ = std::make_shared<ShadowTargets>(scene_.shared.device, settings_, caster_count_,
+                                                   frame_.transmits);
     }
     slot.step_targets.hold(targets_);
     blocks[io::kShadowAtlasBinding].image = *targets_->atlas.view;
+    blocks[io::kTransmittanceAtlasBinding].image = *targets_->transmittance.view;
     slot.stored.findOrMake<ShadowSet>(scene_.shared.device, scene_.shared.pipelines.frameLayout())
         .write(scene_.shared.device, slot.upload.buffer(), uniforms_offset_);
 }
@@ -286,41 +326,60 @@ void Shadows::recordFaces(const FrameContext& frame,
                           std::span<const ShadowFace> faces,
                           bool first) const {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kShadows);
+    const auto& targets = frame.slot.step_targets.get<ShadowTargets>();
+    const auto load = first && changed_.size() == frame_.faces.size() ? vk::AttachmentLoadOp::eClear
+                                                                      : vk::AttachmentLoadOp::eLoad;
+    const auto depth = attachment(targets.atlas, load, farDepth());
+    recordCasters(frame, faces, {}, depth, false);
+    if (frame_.transmits) {
+        nextRasterPass(frame.slot.cmd);
+        const auto passes = attachment(targets.transmittance, load, allPasses());
+        recordCasters(frame, faces, {&passes, 1},
+                      attachment(targets.atlas, vk::AttachmentLoadOp::eLoad), true);
+    }
+}
+
+void Shadows::recordCasters(const FrameContext& frame,
+                            std::span<const ShadowFace> faces,
+                            std::span<const vk::RenderingAttachmentInfo> colors,
+                            const vk::RenderingAttachmentInfo& depth,
+                            bool transmissive) const {
     const auto& cmd = frame.slot.cmd;
     const auto& targets = frame.slot.step_targets.get<ShadowTargets>();
-    const bool whole = changed_.size() == frame_.faces.size();
-    const vk::ClearValue nothing(vk::ClearDepthStencilValue{.depth = 0.0F, .stencil = 0});
-    const vk::RenderingAttachmentInfo depth{.imageView = *targets.atlas.view,
-                                            .imageLayout = vk::ImageLayout::eGeneral,
-                                            .loadOp = first && whole ? vk::AttachmentLoadOp::eClear
-                                                                     : vk::AttachmentLoadOp::eLoad,
-                                            .storeOp = vk::AttachmentStoreOp::eStore,
-                                            .clearValue = nothing};
     const auto used = static_cast<uint32_t>(frame_.faces.size());
     cmd.beginRendering({.renderArea = {{0, 0}, extentOf(used, targets.size_px)},
                         .layerCount = 1,
+                        .colorAttachmentCount = static_cast<uint32_t>(colors.size()),
+                        .pColorAttachments = colors.data(),
                         .pDepthAttachment = &depth});
     bindGeometry(frame, frame.scene.shared.pipelines.geometryPipelineLayout(),
                  *frame.slot.stored.get<ShadowSet>().set, *frame.scene.index_buffer.handle,
                  rows_offset_);
-    if (!whole) {
+    if (changed_.size() != frame_.faces.size()) {
         std::vector<vk::ClearRect> tiles;
         for (const ShadowFace& face : faces) {
             tiles.push_back({tileOf(face, targets.size_px), 0, 1});
         }
-        cmd.clearAttachments(vk::ClearAttachment{.aspectMask = vk::ImageAspectFlagBits::eDepth,
-                                                 .clearValue = nothing},
-                             tiles);
+        cmd.clearAttachments(
+            transmissive ? vk::ClearAttachment{.aspectMask = vk::ImageAspectFlagBits::eColor,
+                                               .colorAttachment = 0,
+                                               .clearValue = allPasses()}
+                         : vk::ClearAttachment{.aspectMask = vk::ImageAspectFlagBits::eDepth,
+                                               .clearValue = farDepth()},
+            tiles);
     }
     cmd.setCullMode(vk::CullModeFlagBits::eNone);
     cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
     for (const ShadowFace& face : faces) {
-        drawFace(frame, face, targets.size_px);
+        drawFace(frame, face, targets.size_px, transmissive);
     }
     cmd.endRendering();
 }
 
-void Shadows::drawFace(const FrameContext& frame, const ShadowFace& face, uint32_t size_px) const {
+void Shadows::drawFace(const FrameContext& frame,
+                       const ShadowFace& face,
+                       uint32_t size_px,
+                       bool transmissive) const {
     const auto& cmd = frame.slot.cmd;
     auto& pipelines = frame.scene.shared.pipelines;
     const vk::Rect2D tile = tileOf(face, size_px);
@@ -328,10 +387,14 @@ void Shadows::drawFace(const FrameContext& frame, const ShadowFace& face, uint32
     cmd.setViewport(0, vk::Viewport{static_cast<float>(tile.offset.x),
                                     static_cast<float>(tile.offset.y), side, side, 0, 1});
     cmd.setScissor(0, tile);
+    const auto pass = transmissive ? GeometryPass::kTransmittance : GeometryPass::kDepth;
     for (uint32_t i = face.first_group; i < face.first_group + face.group_count; ++i) {
         const ShadowGroup& group = frame_.groups[i];
+        if (isTransmissive(group.material_flags) != transmissive) {
+            continue;
+        }
         cmd.bindPipeline(vk::PipelineBindPoint::eGraphics,
-                         pipelines.geometry(GeometryPass::kDepth, {group.material_flags, 0, 0}));
+                         pipelines.geometry(pass, {group.material_flags, 0, 0}));
         if (group.material_flags != 0) {
             cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
                                    pipelines.geometryPipelineLayout(), 1,
@@ -371,16 +434,21 @@ std::optional<StepPlan> planOfShadows(const PlanInputs& inputs) {
     if (!drawn && inputs.settings.shadows.light_count == 0) {
         return {};
     }
-    return drawn ? StepPlan{.way = kShadowsDrawn, .light_flags = io::kLightShadows} : StepPlan{};
+    constexpr uint32_t kFlags = io::kLightShadows | io::kLightTransmitted;
+    return drawn ? StepPlan{.way = kShadowsDrawn, .light_flags = facts.lights & kFlags}
+                 : StepPlan{};
 }
 
 std::vector<Use> usesOfShadows(const FramePlan& /*frame*/, const StepPlan& plan) {
     if ((plan.way & kShadowsDrawn) == 0) {
         return {};
     }
-    Use atlas = use::depthTested();
-    atlas.what = Resource::kAtlas;
-    return {use::vertices(), atlas};
+    std::vector uses = {use::vertices(), use::depthTested()};
+    uses.back().what = Resource::kAtlas;
+    if ((plan.light_flags & io::kLightTransmitted) != 0) {
+        uses.push_back(use::drawn(Resource::kAtlas));
+    }
+    return uses;
 }
 
 std::string wordsOfShadows(const PlanInputs& inputs, const StepPlan* plan) {

@@ -42,7 +42,7 @@ class BehindPipelines {
                                            shared.pipelines.screenLayout(), levelLayout(shared)})),
           level_layout_(gpu::makePipelineLayout(device_, {levelLayout(shared)})),
           made_(shared.timeline, shared.variants, settings::kToneMapNames.size()),
-          level(gpu::makeComputePipeline(
+          level_(gpu::makeComputePipeline(
               device_, shaders::behind_level_comp(), {}, *level_layout_, "level behind")) {}
 
     // May throw VariantsMissing.
@@ -53,6 +53,7 @@ class BehindPipelines {
                                             *layout_, pass::kBehind);
         });
     }
+    [[nodiscard]] SharedPipeline& level() { return level_; }
     [[nodiscard]] vk::PipelineLayout layout() const { return *layout_; }
     [[nodiscard]] vk::PipelineLayout levelLayout() const { return *level_layout_; }
 
@@ -65,9 +66,7 @@ class BehindPipelines {
     vk::raii::PipelineLayout layout_;
     vk::raii::PipelineLayout level_layout_;
     VariantCache<uint32_t> made_;
-
-  public:
-    SharedPipeline level;
+    SharedPipeline level_;
 };
 
 const TransmissionTargets& targetsOf(const FrameContext& frame) {
@@ -345,7 +344,7 @@ void Transmission::recordLevels(const FrameContext& frame, vk::Rect2D region) co
     const auto& cmd = frame.slot.cmd;
     const gpu::PassScope scope(frame.slot.timestamps, cmd, pass::kBehind);
     auto& pipelines = scene_.shared.stored<BehindPipelines>();
-    pipelines.level.bind(cmd, scene_.shared.variants);
+    pipelines.level().bind(cmd, scene_.shared.variants);
     const auto& targets = targetsOf(frame);
     for (uint32_t level = 1; level < levels_built_; ++level) {
         nextComputePass(cmd);
