@@ -33,9 +33,9 @@ struct ShadowLight {
     vec3 position_view; // as io::Light
     float inv_radius2;
     float scale;
-    float texel;  // of a map, metres at a metre along its axis
-    float near_m; // kShadowNear * reach * kShadowSlack
-    float padding0;
+    float texel;     // of a map, metres at a metre along its axis
+    float near_m;    // kShadowNear * reach * kShadowSlack
+    float transmits; // 1: some of its casters let light pass
 };
 FROXEL_SIZE_ASSERT(ShadowLight, 80);
 

@@ -81,7 +81,7 @@ uint shadowLevel(Surface s, uint index) {
     float b = shadowTap(t + ivec2(1, 0), along, map.z);
     float c = shadowTap(t + ivec2(0, 1), along, map.z);
     float e = shadowTap(t + ivec2(1, 1), along, map.z);
-    if (hasLight(kLightTransmitted)) {
+    if (hasLight(kLightTransmitted) && map.w > 0.0) {
         a *= transmittanceTap(t, along, map.z);
         b *= transmittanceTap(t + ivec2(1, 0), along, map.z);
         c *= transmittanceTap(t + ivec2(0, 1), along, map.z);

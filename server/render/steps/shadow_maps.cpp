@@ -122,6 +122,7 @@ class FaceDraws {
 
     // Appends the faces, the first of them as tile `tile`.
     void finish(uint32_t tile) {
+        const size_t first = out_.faces.size();
         for (uint32_t face = firstFace(); face < endFace(); ++face) {
             auto& draws = draws_[face];
             std::stable_sort(draws.begin(), draws.end(), [](const Draw& a, const Draw& b) {
@@ -140,13 +141,18 @@ class FaceDraws {
                 }
                 out_.commands.push_back(draw.command);
                 made.bends = made.bends || draw.bends;
-                out_.transmits = out_.transmits || isTransmissive(draw.flags);
+                transmits_ = transmits_ || isTransmissive(draw.flags);
                 out_.triangle_count += draw.command.indexCount / 3;
                 ++out_.groups.back().command_count;
             }
             out_.faces.push_back(made);
         }
+        for (ShadowFace& face : std::span(out_.faces).subspan(first)) {
+            face.transmits = transmits_;
+        }
     }
+    // Whether some casters of the faces let light pass.
+    [[nodiscard]] bool transmits() const { return transmits_; }
 
   private:
     struct Draw {
@@ -217,6 +223,7 @@ class FaceDraws {
     ShadowFrame& out_;
     std::array<Run, 6> open_{};
     std::array<std::vector<Draw>, 6> draws_;
+    bool transmits_ = false;
 };
 
 io::ShadowLight tableEntry(const io::Light& light,
@@ -239,7 +246,7 @@ io::ShadowLight tableEntry(const io::Light& light,
             .texel = static_cast<float>(2.0 / (size * place.scale)),
             .near_m = static_cast<float>(static_cast<double>(io::kShadowNear) *
                                          static_cast<double>(io::kShadowSlack) * place.reach_m),
-            .padding0 = 0};
+            .transmits = 0};
 }
 
 io::Frame mapUniforms() {
@@ -282,7 +289,7 @@ bool sameFace(const ShadowFrame& a, const ShadowFrame& b, size_t face) {
     const ShadowFace& face_a = a.faces[face];
     const ShadowFace& face_b = b.faces[face];
     if (face_a.tile != face_b.tile || face_a.group_count != face_b.group_count ||
-        face_a.bends != face_b.bends) {
+        face_a.bends != face_b.bends || face_a.transmits != face_b.transmits) {
         return false;
     }
     for (uint32_t i = 0; i < face_a.group_count; ++i) {
@@ -360,6 +367,8 @@ void buildShadows(const SceneResources& scene,
             }
         }
         draws.finish(tile);
+        out.lights.back().transmits = draws.transmits() ? 1.0F : 0.0F;
+        out.transmits = out.transmits || draws.transmits();
         tile += place.face_count;
     }
 }

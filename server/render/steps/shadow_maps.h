@@ -31,7 +31,8 @@ struct ShadowFace {
     uint32_t tile = 0;
     uint32_t first_group = 0;
     uint32_t group_count = 0;
-    bool bends = false; // it shows posed vertices
+    bool bends = false;     // it shows posed vertices
+    bool transmits = false; // some casters of its light let light pass
 };
 
 // Keep one and build into it again: its buffers are reused.

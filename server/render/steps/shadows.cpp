@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -229,12 +230,12 @@ class Shadows final : public Step {
     [[nodiscard]] Seconds faceTime(const FrameCosts& costs) const;
     void
     recordFaces(const FrameContext& frame, std::span<const ShadowFace> faces, bool first) const;
-    // Of the casters that transmit light, or of the others.
+    // Of the casters that transmit light, into a colour, or of the others. clears: their tiles.
     void recordCasters(const FrameContext& frame,
                        std::span<const ShadowFace> faces,
                        std::span<const vk::RenderingAttachmentInfo> colors,
                        const vk::RenderingAttachmentInfo& depth,
-                       bool transmissive) const;
+                       bool clears) const;
     void drawFace(const FrameContext& frame,
                   const ShadowFace& face,
                   uint32_t size_px,
@@ -327,14 +328,17 @@ void Shadows::recordFaces(const FrameContext& frame,
                           bool first) const {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kShadows);
     const auto& targets = frame.slot.step_targets.get<ShadowTargets>();
-    const auto load = first && changed_.size() == frame_.faces.size() ? vk::AttachmentLoadOp::eClear
-                                                                      : vk::AttachmentLoadOp::eLoad;
-    const auto depth = attachment(targets.atlas, load, farDepth());
-    recordCasters(frame, faces, {}, depth, false);
-    if (frame_.transmits) {
+    const bool whole = changed_.size() == frame_.faces.size();
+    const auto depth = attachment(
+        targets.atlas, first && whole ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad,
+        farDepth());
+    recordCasters(frame, faces, {}, depth, !whole);
+    std::vector<ShadowFace> transmitting;
+    std::ranges::copy_if(faces, std::back_inserter(transmitting), &ShadowFace::transmits);
+    if (!transmitting.empty()) {
         nextRasterPass(frame.slot.cmd);
-        const auto passes = attachment(targets.transmittance, load, allPasses());
-        recordCasters(frame, faces, {&passes, 1},
+        const auto passes = attachment(targets.transmittance, vk::AttachmentLoadOp::eLoad);
+        recordCasters(frame, transmitting, {&passes, 1},
                       attachment(targets.atlas, vk::AttachmentLoadOp::eLoad), true);
     }
 }
@@ -343,7 +347,8 @@ void Shadows::recordCasters(const FrameContext& frame,
                             std::span<const ShadowFace> faces,
                             std::span<const vk::RenderingAttachmentInfo> colors,
                             const vk::RenderingAttachmentInfo& depth,
-                            bool transmissive) const {
+                            bool clears) const {
+    const bool transmissive = !colors.empty();
     const auto& cmd = frame.slot.cmd;
     const auto& targets = frame.slot.step_targets.get<ShadowTargets>();
     const auto used = static_cast<uint32_t>(frame_.faces.size());
@@ -355,7 +360,7 @@ void Shadows::recordCasters(const FrameContext& frame,
     bindGeometry(frame, frame.scene.shared.pipelines.geometryPipelineLayout(),
                  *frame.slot.stored.get<ShadowSet>().set, *frame.scene.index_buffer.handle,
                  rows_offset_);
-    if (changed_.size() != frame_.faces.size()) {
+    if (clears) {
         std::vector<vk::ClearRect> tiles;
         for (const ShadowFace& face : faces) {
             tiles.push_back({tileOf(face, targets.size_px), 0, 1});
