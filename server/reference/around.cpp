@@ -18,6 +18,12 @@ glm::dvec3 reflectedShare(const glm::dvec3& f0, double f90, const environment::A
     return once * (1.0 + f0 * (1 / albedo.all - 1));
 }
 
+// Of f0 under its film, whose term is one for all of the lobe.
+glm::dvec3 filmedShare(const Surface& s, const glm::dvec3& f0, const environment::Albedo& albedo) {
+    const glm::dvec3 f = filmReflects(s.film, f0, cosineToEye(s));
+    return f * albedo.all * (1.0 + f * (1 / albedo.all - 1));
+}
+
 // Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 26.
 double glossyOcclusion(double n_dot_v, double occlusion, double roughness) {
     const double seen = std::pow(n_dot_v + occlusion, std::exp2(-16 * roughness - 1));
@@ -62,7 +68,7 @@ glm::dvec3 fromAround(const Surface& s, const Model& model, const Around& around
         return sent;
     }
     const double roughness = std::max(s.roughness, kLeastRoughness);
-    const double n_dot_v = std::max(std::abs(glm::dot(s.normal, s.to_eye)), kLeastCosine);
+    const double n_dot_v = cosineToEye(s);
     auto albedo = environment::albedoFromTable(n_dot_v, roughness);
     glm::dvec3 glossy = glossyAround(s, s.normal, roughness, around);
     if (isStretched(s, model)) {
@@ -81,20 +87,15 @@ glm::dvec3 fromAround(const Surface& s, const Model& model, const Around& around
     if (s.film.strength == 0) {
         return plain;
     }
-    // A film's term is one for all of the lobe.
-    const auto filmed = [&](const glm::dvec3& base_f0) {
-        const glm::dvec3 f = filmReflects(s.film, base_f0, n_dot_v);
-        return f * albedo.all * (1.0 + f * (1 / albedo.all - 1));
-    };
-    return glm::mix(plain, seen(filmed(s.dielectric_f0), filmed(s.base_color)), s.film.strength);
+    return glm::mix(
+        plain, seen(filmedShare(s, s.dielectric_f0, albedo), filmedShare(s, s.base_color, albedo)),
+        s.film.strength);
 }
 
 namespace {
 
 environment::Albedo albedoOf(const Surface& s) {
-    return environment::albedoFromTable(
-        std::max(std::abs(glm::dot(s.normal, s.to_eye)), kLeastCosine),
-        std::max(s.roughness, kLeastRoughness));
+    return environment::albedoFromTable(cosineToEye(s), std::max(s.roughness, kLeastRoughness));
 }
 
 } // namespace
@@ -104,10 +105,7 @@ glm::dvec3 dielectricAround(const Surface& s) {
 }
 
 glm::dvec3 filmedAround(const Surface& s) {
-    const double n_dot_v = std::max(std::abs(glm::dot(s.normal, s.to_eye)), kLeastCosine);
-    const glm::dvec3 f = filmReflects(s.film, s.dielectric_f0, n_dot_v);
-    const double all = albedoOf(s).all;
-    return f * all * (1.0 + f * (1 / all - 1));
+    return filmedShare(s, s.dielectric_f0, albedoOf(s));
 }
 
 glm::dvec3 coatAround(const Surface& s, const Around& around) {

@@ -49,17 +49,11 @@ BlendedSurfaces::BlendedSurfaces(const scene::Scene& scene,
                                  const settings::Size& size)
     : rays_(camera, size), size_(size), near_m_(camera.near_m),
       hits_(size_t{size.width_px} * size.height_px) {
-    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const auto& primitives = scene.meshes[scene.instances[i].mesh].primitives;
-        for (uint32_t p = 0; p < primitives.size(); ++p) {
-            const auto& material = scene.materials[primitives[p].material];
-            if (material.alpha_mode != scene::AlphaMode::kBlend && !transmits(material)) {
-                continue;
-            }
-            for (uint32_t t = 0; 3 * size_t{t} < primitives[p].indices.size(); ++t) {
-                addTriangle(placements[i], primitives[p], material.double_sided, {i, p, t, {}});
-            }
-        }
+    for (const TreeTriangle& t : trianglesOf(scene, placements, isLayered)) {
+        const auto& primitive =
+            scene.meshes[scene.instances[t.instance].mesh].primitives[t.primitive];
+        addTriangle(t, placements[t.instance].side,
+                    scene.materials[primitive.material].double_sided);
     }
     for (auto& hits : hits_) {
         std::stable_sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) {
@@ -68,12 +62,10 @@ BlendedSurfaces::BlendedSurfaces(const scene::Scene& scene,
     }
 }
 
-void BlendedSurfaces::addTriangle(const Placement& placement,
-                                  const scene::Primitive& primitive,
-                                  bool both_sides,
-                                  BlendedHit hit) {
-    const Triangle triangle = placedTriangle(placement, primitive, hit.triangle);
-    const glm::dvec3 front = glm::cross(triangle.edge1, triangle.edge2) * placement.side;
+void BlendedSurfaces::addTriangle(const TreeTriangle& of, double side, bool both_sides) {
+    const Triangle& triangle = of.placed;
+    BlendedHit hit{of.instance, of.primitive, of.triangle, {}};
+    const glm::dvec3 front = glm::cross(triangle.edge1, triangle.edge2) * side;
     const PixelBox box = pixelsOf(rays_, triangle, size_);
     for (auto y = static_cast<uint32_t>(box.low.y); y < box.high.y; ++y) {
         for (auto x = static_cast<uint32_t>(box.low.x); x < box.high.x; ++x) {

@@ -1,4 +1,5 @@
-// Blended triangles that pixels see, found by ray.
+// Triangles that pixels see and that something shows through, found by ray: blended ones, and those
+// that transmit light.
 #pragma once
 
 #include "reference/geometry.h"
@@ -31,10 +32,8 @@ class BlendedSurfaces {
     }
 
   private:
-    void addTriangle(const Placement& placement,
-                     const scene::Primitive& primitive,
-                     bool both_sides,
-                     BlendedHit hit);
+    // side: Placement's
+    void addTriangle(const TreeTriangle& triangle, double side, bool both_sides);
 
     PixelRays rays_;
     settings::Size size_;

@@ -9,16 +9,17 @@
 #include <numbers>
 
 namespace froxel::reference {
+
+double cosineToEye(const Surface& s) {
+    return std::max(std::abs(glm::dot(s.normal, s.to_eye)), 1e-4);
+}
+
 namespace {
 
 constexpr double kInvPi = std::numbers::inv_pi;
 
 double greatest(const glm::dvec3& color) {
     return std::max({color.x, color.y, color.z});
-}
-
-double cosineToEye(const Surface& s) {
-    return std::max(std::abs(glm::dot(s.normal, s.to_eye)), 1e-4);
 }
 
 bool hasFilm(const Surface& s, const Model& model) {

@@ -74,6 +74,9 @@ struct Model {
     double rim_width = 0;
 };
 
+// Of the normal, on either side; at least 1e-4, as the shaders have it.
+[[nodiscard]] double cosineToEye(const Surface& surface);
+
 // Whether highlights are not round: Blinn's always are.
 [[nodiscard]] bool isStretched(const Surface& surface, const Model& model);
 

@@ -126,4 +126,8 @@ bool transmits(const scene::Material& m) {
     return m.transmission.strength > 0 && !m.unlit && !metal;
 }
 
+bool isLayered(const scene::Material& m) {
+    return m.alpha_mode == scene::AlphaMode::kBlend || transmits(m);
+}
+
 } // namespace froxel::reference

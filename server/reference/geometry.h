@@ -75,6 +75,9 @@ struct PixelHit {
 // Whether light passes a material as through glass: all of a metal's is stopped.
 [[nodiscard]] bool transmits(const scene::Material& material);
 
+// Whether what is behind a material shows through it: it is blended or transmits light.
+[[nodiscard]] bool isLayered(const scene::Material& material);
+
 // The triangles whose materials `takes`.
 template <class Takes>
 [[nodiscard]] std::vector<TreeTriangle>

@@ -5,12 +5,9 @@ namespace {
 
 constexpr double kNearest = 1e-6; // of the way, that is still the surface itself
 
-UvPlane uvOf(const std::vector<glm::vec2>& uv, const uint32_t* index) {
-    if (uv.empty()) {
-        return {};
-    }
-    const glm::dvec2 corner(uv[index[0]]);
-    return {corner, glm::dvec2(uv[index[1]]) - corner, glm::dvec2(uv[index[2]]) - corner};
+// Whether a ray meets a triangle between its two ends.
+bool lies(const PlanePoint& hit) {
+    return hit.inside() && hit.distance > kNearest && hit.distance < 1;
 }
 
 } // namespace
@@ -25,31 +22,24 @@ std::vector<TreeTriangle> Occluders::casters() const {
     return trianglesOf(scene_, placements_, [](const scene::Material& m) {
         const bool glows =
             m.emissive != glm::vec3(0) && (m.unlit || m.emissive_texture.texture == scene::kNone);
-        return m.alpha_mode != scene::AlphaMode::kBlend && !transmits(m) && !glows;
+        return !isLayered(m) && !glows;
     });
+}
+
+SurfacePoint
+Occluders::pointOf(const TreeTriangle& of, const Ray& ray, const PlanePoint& hit) const {
+    return surfaceAlong(ray, hit.weights, placements_[of.instance], primitiveOf(of), of.triangle);
+}
+
+bool Occluders::isCutOut(uint32_t index, const SurfacePoint& point) const {
+    const auto& material = scene_.materials[index];
+    return material.alpha_mode == scene::AlphaMode::kMask &&
+           materials_.alpha(index, point) < static_cast<double>(material.alpha_cutoff);
 }
 
 bool Occluders::blocks(const TreeTriangle& caster, const Ray& ray) const {
     const PlanePoint hit = meetPlane(ray, caster.placed);
-    if (!hit.inside() || !(hit.distance > kNearest) || !(hit.distance < 1)) {
-        return false;
-    }
-    const auto& p =
-        scene_.meshes[scene_.instances[caster.instance].mesh].primitives[caster.primitive];
-    const auto& material = scene_.materials[p.material];
-    if (material.alpha_mode != scene::AlphaMode::kMask) {
-        return true;
-    }
-    const uint32_t* index = &p.indices[3 * size_t{caster.triangle}];
-    SurfacePoint point;
-    point.weights = hit.weights;
-    point.uv = {uvOf(p.uv0, index), uvOf(p.uv1, index)};
-    if (!p.colors.empty()) {
-        const glm::dvec4 corner(p.colors[index[0]]);
-        point.color = corner + (glm::dvec4(p.colors[index[1]]) - corner) * hit.weights.x +
-                      (glm::dvec4(p.colors[index[2]]) - corner) * hit.weights.y;
-    }
-    return materials_.alpha(p.material, point) >= static_cast<double>(material.alpha_cutoff);
+    return lies(hit) && !isCutOut(primitiveOf(caster).material, pointOf(caster, ray, hit));
 }
 
 bool Occluders::between(const glm::dvec3& from, const glm::dvec3& to) const {
@@ -59,22 +49,18 @@ bool Occluders::between(const glm::dvec3& from, const glm::dvec3& to) const {
 
 double Occluders::shareOf(const TreeTriangle& surface, const Ray& ray) const {
     const PlanePoint hit = meetPlane(ray, surface.placed);
-    if (!hit.inside() || !(hit.distance > kNearest) || !(hit.distance < 1)) {
+    if (!lies(hit)) {
         return 1;
     }
-    const auto& p =
-        scene_.meshes[scene_.instances[surface.instance].mesh].primitives[surface.primitive];
-    const SurfacePoint point =
-        surfaceAlong(ray, hit.weights, placements_[surface.instance], p, surface.triangle);
-    const Surface s = materials_.at(p.material, point);
-    const auto& material = scene_.materials[p.material];
-    if (material.alpha_mode == scene::AlphaMode::kMask &&
-        materials_.alpha(p.material, point) < static_cast<double>(material.alpha_cutoff)) {
+    const uint32_t material = primitiveOf(surface).material;
+    const SurfacePoint point = pointOf(surface, ray, hit);
+    if (isCutOut(material, point)) {
         return 1;
     }
+    const Surface s = materials_.at(material, point);
     const Transmission& t = s.transmission;
     glm::dvec3 color = s.base_color * (t.strength * (1 - s.metallic));
-    if (material.volume.thickness_m > 0) {
+    if (scene_.materials[material].volume.thickness_m > 0) {
         color = glm::sqrt(color * glm::pow(t.attenuation, glm::dvec3(t.thickness)));
     }
     return glm::dot(glm::mix(glm::dvec3(1), color, s.alpha), glm::dvec3(0.2126, 0.7152, 0.0722));

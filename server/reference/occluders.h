@@ -13,9 +13,9 @@
 namespace froxel::reference {
 
 // The triangles that cast shadows: opaque ones and the uncut part of masked ones (by the texture's
-// base level), from both sides; not blended ones, nor those that transmit light or whose materials
-// have with an emissive factor and no emissive texture. Immutable: any number of threads may ask.
-// Keeps references to all it is given.
+// base level), from both sides; not blended ones, nor those that transmit light, nor those of
+// materials with an emissive factor and no emissive texture. Immutable: any number of threads may
+// ask. Keeps references to all it is given.
 class Occluders {
   public:
     Occluders(const scene::Scene& scene,
@@ -32,6 +32,12 @@ class Occluders {
 
   private:
     [[nodiscard]] std::vector<TreeTriangle> casters() const;
+    [[nodiscard]] const scene::Primitive& primitiveOf(const TreeTriangle& of) const {
+        return scene_.meshes[scene_.instances[of.instance].mesh].primitives[of.primitive];
+    }
+    [[nodiscard]] SurfacePoint
+    pointOf(const TreeTriangle& of, const Ray& ray, const PlanePoint& hit) const;
+    [[nodiscard]] bool isCutOut(uint32_t material, const SurfacePoint& point) const;
     [[nodiscard]] double shareOf(const TreeTriangle& surface, const Ray& ray) const;
     [[nodiscard]] bool blocks(const TreeTriangle& caster, const Ray& ray) const;
 

@@ -224,18 +224,17 @@ class Shader {
         } else if (t.thickness == 0) {
             seen = withoutMedium(straight);
         } else {
-            const glm::dvec3 indices = indicesOf(t);
-            for (int channel = 0; channel < 3; ++channel) {
+            const auto bent = [&](double index) {
                 double distance = 0;
-                const glm::dvec2 exit = rays_.project(
-                    s.position + wayThrough(s, placement, indices[channel]), distance);
-                seen[channel] = withoutMedium(
-                    along(rays_.through(exit), hit.point.distance, at, depth + 1))[channel];
-                if (t.dispersion == 0) {
-                    seen = withoutMedium(
-                        along(rays_.through(exit), hit.point.distance, at, depth + 1));
-                    break;
-                }
+                const glm::dvec2 exit =
+                    rays_.project(s.position + wayThrough(s, placement, index), distance);
+                return withoutMedium(along(rays_.through(exit), hit.point.distance, at, depth + 1));
+            };
+            seen = bent(t.ior);
+            if (t.dispersion > 0) {
+                const glm::dvec3 indices = indicesOf(t);
+                seen.x = bent(indices.x).x;
+                seen.z = bent(indices.z).z;
             }
         }
         return radiance(s, model_, lights_, open_, seen * s.transmission.left);
@@ -295,9 +294,8 @@ class Shader {
         return m.double_sided || glm::dot(front, ray.direction) < 0;
     }
     [[nodiscard]] bool isLayer(const TreeTriangle& triangle) const {
-        const auto& m =
-            scene_.materials[primitiveOf(scene_, triangle.instance, triangle.primitive).material];
-        return m.alpha_mode == scene::AlphaMode::kBlend || transmits(m);
+        return isLayered(
+            scene_.materials[primitiveOf(scene_, triangle.instance, triangle.primitive).material]);
     }
     // All that a ray sees beyond a distance along it, through the medium; at: a pixel near it.
     [[nodiscard]] glm::dvec3

@@ -22,9 +22,10 @@ bool reflectsUnusually(const scene::Material& m) {
            m.specular_color_texture.texture != scene::kNone;
 }
 
-// All of it, so that nothing passes it.
-bool isMetal(const scene::Material& m) {
-    return m.metallic == 1 && m.metallic_roughness_texture.texture == scene::kNone;
+// Metal all over stops light.
+bool transmits(const scene::Material& m) {
+    const bool metal = m.metallic == 1 && m.metallic_roughness_texture.texture == scene::kNone;
+    return m.transmission.strength != 0 && !metal;
 }
 
 // Whether what a texture says can be seen: nothing multiplied by it is 0.
@@ -54,10 +55,10 @@ bool shows(const scene::Material& m, uint32_t slot) {
     case io::diffuse_transmission_color_slot:
         return m.diffuse_transmission.strength != 0;
     case io::transmission_slot:
-        return m.transmission.strength != 0 && !isMetal(m);
+        return transmits(m);
     case io::thickness_slot:
         return m.volume.thickness_m != 0 &&
-               ((m.transmission.strength != 0 && !isMetal(m)) ||
+               (transmits(m) ||
                 (m.diffuse_transmission.strength != 0 && m.volume.attenuation_m != 0));
     default:
         return true;
@@ -92,7 +93,7 @@ MaterialFlags materialFlags(const scene::Material& m) {
         set(m.anisotropy.strength != 0, io::kMaterialAnisotropy);
         set(m.film.strength != 0, io::kMaterialFilm);
         set(m.diffuse_transmission.strength != 0, io::kMaterialDiffuseTransmission);
-        set(m.transmission.strength != 0 && !isMetal(m), io::kMaterialTransmission);
+        set(transmits(m), io::kMaterialTransmission);
     }
     return flags;
 }
@@ -132,7 +133,6 @@ SurfaceNeeds surfaceNeeds(const scene::Material& m, MaterialFlags flags) {
             .masked = m.alpha_mode == scene::AlphaMode::kMask,
             .blended = !solid && !transmissive,
             .transmissive = transmissive,
-            .frosted = transmissive && m.roughness != 0,
             .unlit = m.unlit && solid};
 }
 
@@ -148,7 +148,6 @@ void SurfaceNeeds::add(const SurfaceNeeds& other) {
     masked |= other.masked;
     blended |= other.blended;
     transmissive |= other.transmissive;
-    frosted |= other.frosted;
     unlit |= other.unlit;
 }
 

@@ -21,7 +21,6 @@ struct SurfaceNeeds {
     bool masked = false;
     bool blended = false;
     bool transmissive = false; // light passes it as through glass
-    bool frosted = false;      // and is scattered as it does
     bool unlit = false;        // a solid surface is
 
     void add(const SurfaceNeeds& other);

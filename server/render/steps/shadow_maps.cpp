@@ -300,6 +300,10 @@ bool sameFace(const ShadowFrame& a, const ShadowFrame& b, size_t face) {
     return true;
 }
 
+bool ShadowFrame::transmits() const {
+    return std::ranges::any_of(faces, &ShadowFace::transmits);
+}
+
 void ShadowFrame::clear() {
     shadow_of_light.clear();
     lights.clear();
@@ -308,7 +312,6 @@ void ShadowFrame::clear() {
     rows.clear();
     commands.clear();
     triangle_count = 0;
-    transmits = false;
 }
 
 ShadowPlace shadowPlace(const light::LightRig::Place& place, double reach_m, uint32_t size_px) {
@@ -368,7 +371,6 @@ void buildShadows(const SceneResources& scene,
         }
         draws.finish(tile);
         out.lights.back().transmits = draws.transmits() ? 1.0F : 0.0F;
-        out.transmits = out.transmits || draws.transmits();
         tile += place.face_count;
     }
 }

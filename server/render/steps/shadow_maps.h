@@ -45,8 +45,9 @@ struct ShadowFrame {
     std::vector<vk::DrawIndexedIndirectCommand> commands; // empty: nothing casts a shadow
     io::Frame uniforms{};                                 // of the passes that draw maps
     uint32_t triangle_count = 0;
-    bool transmits = false; // some casters let light pass
 
+    // Whether some casters let light pass.
+    [[nodiscard]] bool transmits() const;
     void clear();
 };
 

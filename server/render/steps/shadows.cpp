@@ -166,7 +166,7 @@ class Shadows final : public Step {
         buildShadows(scene_, inputs.pose, inputs.lights, inputs.settings, inputs.time_s, frame_);
         if (!frame_.commands.empty()) { // else nothing stands before any light
             facts.lights |= io::kLightShadows;
-            facts.lights |= frame_.transmits ? io::kLightTransmitted : 0U;
+            facts.lights |= frame_.transmits() ? io::kLightTransmitted : 0U;
         }
     }
     void addLoad(const UnitCosts& unit, CostInputs& load) const override {
@@ -182,7 +182,7 @@ class Shadows final : public Step {
     void addMemory(NeedList& need) const override {
         if (drawn_ || targets_) {
             need.image("shadow atlas", atlasImage(settings_, caster_count_));
-            if (frame_.transmits) {
+            if (frame_.transmits()) {
                 need.image("transmittance atlas", transmittanceImage(settings_, caster_count_));
             }
         }
@@ -201,7 +201,7 @@ class Shadows final : public Step {
     }
 
     void freeUnfit(const ViewTargets* /*view*/) override {
-        if (targets_ && !targets_->fits(settings_, caster_count_, frame_.transmits)) {
+        if (targets_ && !targets_->fits(settings_, caster_count_, frame_.transmits())) {
             targets_.reset();
         }
     }
@@ -258,7 +258,7 @@ class Shadows final : public Step {
 void Shadows::chooseFaces() {
     changed_.clear();
     const bool holds = keeps_ && targets_ &&
-                       targets_->fits(settings_, caster_count_, frame_.transmits) &&
+                       targets_->fits(settings_, caster_count_, frame_.transmits()) &&
                        !targets_->fresh && targets_->drawn;
     for (size_t i = 0; i < frame_.faces.size(); ++i) {
         const ShadowFace& face = frame_.faces[i];
@@ -289,7 +289,7 @@ void Shadows::prepare(FrameSlot& slot, FrameBlocks& blocks) {
     }
     if (!targets_) {
         targets_ = std::make_shared<ShadowTargets>(scene_.shared.device, settings_, caster_count_,
-                                                   frame_.transmits);
+                                                   frame_.transmits());
     }
     slot.step_targets.hold(targets_);
     blocks[io::kShadowAtlasBinding].image = *targets_->atlas.view;
