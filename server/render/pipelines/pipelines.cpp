@@ -189,6 +189,9 @@ gpu::Spirv fragmentShader(GeometryPass pass, const VariantKey& key) {
         return extended ? overdraw_masked_extended_frag() : overdraw_masked_frag();
     case GeometryPass::kInstances:
         return extended ? instance_masked_extended_frag() : instance_masked_frag();
+    case GeometryPass::kTransmissionDepth:
+        return extended ? transmission_depth_masked_extended_frag()
+                        : transmission_depth_masked_frag();
     case GeometryPass::kTransmittance:
         return extended ? transmittance_extended_frag() : transmittance_frag();
     case GeometryPass::kGbuffer:
