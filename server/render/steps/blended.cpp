@@ -11,6 +11,7 @@
 #include "render/steps/blend_targets.h"
 #include "render/steps/order.h"
 #include "render/steps/packing.h"
+#include "render/steps/transmission_targets.h"
 #include "render/surfaces/geometry_draws.h"
 #include "render/surfaces/raster_passes.h"
 #include "render/surfaces/rendering_scope.h"
@@ -148,13 +149,29 @@ class BlendedBehind final : public Step {
     }
     void record(const FrameContext& frame) const override {
         handDepthOver(frame);
-        inParts(frame, frame.drawn(), cost(frame.costs), recordPart);
+        inParts(frame, frame.drawn(), cost(frame.costs),
+                [this](const FrameContext& at, const vk::Rect2D& part) {
+                    const vk::Rect2D both = common(part, covered_);
+                    if (both.extent.width > 0) {
+                        recordPart(at, both);
+                    }
+                });
     }
 
   private:
-    static RegionCost cost(const FrameCosts& costs) {
-        return costs.layered(costs.load().draws.transparent);
+    Result<void> build(const StepInputs& inputs, const FramePlan& /*frame*/) override {
+        covered_ = around(inputs.draws.transmissive.parts);
+        return {};
     }
+    [[nodiscard]] RegionCost cost(const FrameCosts& costs) const {
+        const RegionCost all = costs.layered(costs.load().draws.transparent);
+        return {all.each,
+                [all, region = covered_](const vk::Rect2D& part) {
+                    return all.of(common(part, region));
+                },
+                all.least};
+    }
+
     static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
         const auto pass = GeometryPass::kTransparentBehind;
         inGroups(frame, pass, frame.draws.transparent.groups, [&](const auto& groups, bool) {
@@ -166,6 +183,8 @@ class BlendedBehind final : public Step {
             drawGroups(frame, pass, groups);
         });
     }
+
+    vk::Rect2D covered_; // by surfaces that transmit light
 };
 
 class Blended final : public Step {
