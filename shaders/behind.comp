@@ -13,8 +13,19 @@ layout(local_size_x = kScreenGroup, local_size_y = kScreenGroup) in;
 
 layout(set = 2, binding = 1, rgba32f) uniform writeonly image2D behind_image;
 
+#ifdef FROXEL_TILES
+#define FROXEL_TILES_BINDING 2
+#include "lib/layer_tiles.glsl"
+// What changed since the last copy: where this layer was drawn.
+layout(push_constant) uniform LayerBlock { uint layer; };
+uvec2 groupsTile() { return layerTile(layer, gl_WorkGroupID.x); }
+#else
+uvec2 groupsTile() { return gl_WorkGroupID.xy; }
+#endif
+
 void main() {
-    uvec2 pixel = gl_GlobalInvocationID.xy;
+    uvec2 pixel = groupsTile() * kScreenGroup + gl_LocalInvocationID.xy;
+
     if (!insideScreen(pixel)) {
         return;
     }

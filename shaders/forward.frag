@@ -20,11 +20,12 @@
 #include "lib/material.glsl"
 #include "lib/fragment_inputs.glsl"
 #include "lib/fog.glsl"
-
 #include "lib/before_transmissive.glsl"
 
 #ifdef FROXEL_TRANSMISSION
+#define FROXEL_BEHIND_SET 2
 #include "lib/transmission.glsl"
+layout(location = 5) flat in mat3 object_from_view;
 #endif
 
 #ifdef FROXEL_PEELED
@@ -54,27 +55,6 @@ layout(location = 0) out vec4 radiance;
 void store(vec3 color, float alpha, float distance) { radiance = vec4(color * alpha, alpha); }
 #endif
 
-// A blended surface brings as much of the fog before it as it covers.
-vec3 seen(vec3 lit, uvec2 pixel, float distance) {
-    if (hasOutput(kOutputFog)) {
-        vec4 fog = fogBefore(pixel, distance);
-        lit = fma(lit, vec3(fog.a), fog.rgb);
-    }
-    return lit;
-}
-
-#ifdef FROXEL_TRANSMISSION
-// What is behind is seen through all of the fog. What lies before the surface comes over it once
-// more, and is taken off.
-vec3 withoutFog(vec3 behind, uvec2 pixel, float distance) {
-    if (hasOutput(kOutputFog)) {
-        vec4 fog = fogBefore(pixel, distance);
-        behind = max(behind - fog.rgb, vec3(0.0)) / max(fog.a, 1e-6);
-    }
-    return behind;
-}
-#endif
-
 void main() {
     VertexData v = vertexData();
     vec4 base = baseColor(v);
@@ -93,7 +73,7 @@ void main() {
     float alpha = hasMaterial(kMaterialBlend) ? clamp(base.a, 0.0, 1.0) : 1.0;
     if (g.unlit) {
         bool blended = hasMaterial(kMaterialBlend);
-        store(seen(blended ? shownAs(g.base_color) : g.base_color, pixel, distance), alpha,
+        store(throughFog(blended ? shownAs(g.base_color) : g.base_color, pixel, distance), alpha,
               distance);
 #ifndef FROXEL_WEIGHTED
         if (!blended) {
@@ -109,12 +89,9 @@ void main() {
     LightSum sum = sumLights(s, pixel, distance, true);
     vec3 behind = vec3(0.0);
 #ifdef FROXEL_TRANSMISSION
-    vec3 left;
-    behind = seenBehind(s, g.layers.transmission, pixel, gl_FragCoord.z, left);
-    behind = withoutFog(behind, pixel, distance) * left;
-    sum.layers.through = min(sum.layers.through, kMostSum) * left;
-    sum.layers.through_grazing = min(sum.layers.through_grazing, kMostSum) * left;
+    behind = broughtBehind(s, g.layers.transmission, pixel, gl_FragCoord.z, distance,
+                           object_from_view, sum);
 #endif
     vec3 lit = surfaceRadiance(g, s, sum, behind);
-    store(seen(lit, pixel, distance), alpha, distance);
+    store(throughFog(lit, pixel, distance), alpha, distance);
 }

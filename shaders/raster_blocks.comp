@@ -5,6 +5,8 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_atomic_int64 : require
+#extension GL_EXT_control_flow_attributes : require
+
 #extension GL_GOOGLE_include_directive : require
 #ifdef FROXEL_BINDLESS
 #extension GL_EXT_nonuniform_qualifier : require
@@ -21,6 +23,13 @@
 #include "lib/raster_pixel.glsl"
 
 layout(local_size_x = kRasterBlockGroup) in;
+
+// Blocks that a workgroup takes at a time: of several layers each takes longer, and there are few.
+#ifdef FROXEL_PEELED
+const uint kRun = 1u;
+#else
+const uint kRun = kRasterRun;
+#endif
 
 const uint kLaneSide = 8u; // a workgroup's pixels at a time
 
@@ -52,12 +61,19 @@ void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, ui
     uvec2 size = uvec2(frame.camera.width_px, frame.camera.height_px);
     uvec2 lane = uvec2(gl_LocalInvocationIndex % kLaneSide, gl_LocalInvocationIndex / kLaneSide);
     for (uint y = 0; y < kRasterBlock; y += kLaneSide) {
-        for (uint x = 0; x < kRasterBlock; x += kLaneSide) {
+        for (uint x = 0; x < kRasterBlock; x += kLaneSide * kBurst) {
             uvec2 at = lane + uvec2(x, y);
-            ivec3 inside = edges.inside + edges.step_x * int(at.x) + edges.step_y * int(at.y);
-            if (isInside(inside) && all(lessThan(first + at, size))) {
-                drawPixel(first + at, depthAt(inside, edges.rest, edges.scale), id);
+            uint64_t burst[kBurst];
+            [[unroll]] for (uint k = 0; k < kBurst; ++k) {
+                uvec2 pixel = at + uvec2(k * kLaneSide, 0);
+                ivec3 inside =
+                    edges.inside + edges.step_x * int(pixel.x) + edges.step_y * int(pixel.y);
+                burst[k] = 0;
+                if (isInside(inside) && all(lessThan(first + pixel, size))) {
+                    burst[k] = wordAt(first + pixel, depthAt(inside, edges.rest, edges.scale), id);
+                }
             }
+            keepWords(first + at, kLaneSide, burst);
         }
     }
 }
@@ -96,10 +112,10 @@ void drawLarge(LargeTriangle large, uint of_box) {
 void main() {
     uint triangle_count = uint(batches[batch].large >> int(kRasterBlockBits));
     uint64_t block_count = batches[batch].large & ((uint64_t(1) << int(kRasterBlockBits)) - 1);
-    uint64_t run = uint64_t(gl_WorkGroupID.x) * kRasterRun;
-    for (; run < block_count; run += gl_NumWorkGroups.x * kRasterRun) {
+    uint64_t run = uint64_t(gl_WorkGroupID.x) * kRun;
+    for (; run < block_count; run += gl_NumWorkGroups.x * kRun) {
         uint i = triangleOfBlock(run, triangle_count);
-        for (uint64_t block = run; block < min(run + kRasterRun, block_count); ++block) {
+        for (uint64_t block = run; block < min(run + kRun, block_count); ++block) {
             if (i + 1u < triangle_count && large_triangles[i + 1u].first_block <= block) {
                 ++i;
             }

@@ -7,6 +7,8 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_atomic_int64 : require
+#extension GL_EXT_control_flow_attributes : require
+
 #extension GL_GOOGLE_include_directive : require
 #ifdef FROXEL_BINDLESS
 #extension GL_EXT_nonuniform_qualifier : require
@@ -23,7 +25,14 @@
 #include "lib/raster_clip.glsl"
 #include "lib/raster_pixel.glsl"
 
-layout(local_size_x = kRasterGroup) in;
+#ifdef FROXEL_PEELED
+const uint kGroup = kPeeledGroup;
+
+#else
+const uint kGroup = kRasterGroup;
+#endif
+
+layout(local_size_x = kGroup) in;
 
 struct SmallTriangle {
     Edges edges;
@@ -130,20 +139,30 @@ void drawRow(SmallTriangle t, uint row, uint first_id) {
                  float(kRasterSmall)));
     inside += t.edges.step_x * int(first);
     bool entered = false;
-    for (uint x = first; x < t.width; ++x) {
-        if (isInside(inside)) {
+    for (uint x = first; x < t.width; x += kBurst) {
+        uvec2 pixel = t.first + uvec2(x, row);
+        uint64_t burst[kBurst];
+        bool any = false;
+        [[unroll]] for (uint k = 0; k < kBurst; ++k) {
+            burst[k] = 0;
+            if (isInside(inside) && (k == 0u || x + k < t.width)) {
+                any = true;
+                burst[k] = wordAt(pixel + uvec2(k, 0), depthAt(inside, t.edges.rest, t.edges.scale),
+                                  first_id | t.triangle);
+            }
+            inside += t.edges.step_x;
+        }
+        if (any) {
             entered = true;
-            drawPixel(t.first + uvec2(x, row), depthAt(inside, t.edges.rest, t.edges.scale),
-                      first_id | t.triangle);
+            keepWords(pixel, 1u, burst);
         } else if (entered) {
             break;
         }
-        inside += t.edges.step_x;
     }
 }
 
 void projectVertices(Meshlet m, VisibleItem item, InstanceView view) {
-    for (uint i = gl_LocalInvocationIndex; i < m.vertex_count; i += kRasterGroup) {
+    for (uint i = gl_LocalInvocationIndex; i < m.vertex_count; i += kGroup) {
         vec4 clip = clipVertex(view, meshlet_words[m.first_word + i] + item.vertex_offset);
         vec3 at = onScreen(clip);
         corner_x[i] = drawable(clip) ? at.x : kNotDrawable;
@@ -248,7 +267,7 @@ uint triangleOfRow(uint row, uint count) {
 void drawRows(uint shared_rows, uint first_id) {
     uint count = shared_rows >> kRowBits;
     uint rows = shared_rows & ((1u << kRowBits) - 1u);
-    for (uint row = gl_LocalInvocationIndex; row < rows; row += kRasterGroup) {
+    for (uint row = gl_LocalInvocationIndex; row < rows; row += kGroup) {
         uint i = triangleOfRow(row, count);
         drawRow(unpack(small[i]), row - first_rows[i], first_id);
     }
@@ -274,7 +293,7 @@ void main() {
     barrier();
     uint first_triangle = m.first_word + m.vertex_count;
     uint first_id = meshlet << kTriangleBits;
-    for (uint i = lane; 3u * i < m.index_count; i += kRasterGroup) {
+    for (uint i = lane; 3u * i < m.index_count; i += kGroup) {
         keepCovering(placed, item, view, meshlet_words[first_triangle + i], first_id | i);
     }
     barrier();

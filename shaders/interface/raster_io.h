@@ -11,7 +11,9 @@ FROXEL_IO_NAMESPACE_BEGIN
 FROXEL_CONST uint kSubpixelBits = 8U;
 FROXEL_CONST float kGuardPx = 8192.0F; // from the picture's middle
 
-FROXEL_CONST uint kRasterGroup = 128U;        // invocations a meshlet
+FROXEL_CONST uint kRasterGroup = 128U; // invocations a meshlet
+// Where several layers are kept: an invocation waits for what its pixels held before.
+FROXEL_CONST uint kPeeledGroup = 512U;
 FROXEL_CONST uint kRasterTiny = 4U;           // pixels of a box that one of them draws by itself
 FROXEL_CONST uint kRasterSmall = 16U;         // pixels a side of what a meshlet's workgroup draws
 FROXEL_CONST uint kRasterBlock = 32U;         // pixels a side of the blocks of larger triangles
@@ -46,7 +48,7 @@ struct RasterBatch {
     uint first;         // of visible_meshlets[], of those listed
     uint first_drawn;   // of those drawn
     uint listed_of_all; // of the first: those of all batches
-    uint padding0;
+    uint layer_count;   // of each pixel that are kept; 0: the nearest surface alone
 };
 FROXEL_SIZE_ASSERT(RasterBatch, 64);
 

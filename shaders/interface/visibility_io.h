@@ -19,6 +19,16 @@ FROXEL_CONST uint kAnyMaterial = 0xffffffffU;
 FROXEL_CONST uint kResolveLast = 1U;
 FROXEL_CONST uint kResolveReused = 2U;
 FROXEL_CONST uint kResolveLayers = 4U; // only surfaces that have layers
+// Of one that shades a layer of surfaces that transmit light: only its tiles; and from this bit on
+// its number, from the nearest.
+FROXEL_CONST uint kResolveTiles = 8U;
+
+FROXEL_CONST uint kResolveLayerShift = 8U;
+
+// Before lists of layers' tiles (lib/layer_tiles.glsl): the words of a VkDispatchIndirectCommand
+// and one of padding for each layer that there may be.
+FROXEL_CONST uint kMostPeelLayers = 16U;
+FROXEL_CONST uint kTileHeadWords = 4U * kMostPeelLayers;
 
 // A primitive of an instance.
 struct VisibleItem {

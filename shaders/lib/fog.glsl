@@ -114,3 +114,21 @@ vec4 fogBefore(uvec2 pixel, float distance) {
     }
     return vec4(scattered, exp(-depth));
 }
+
+// Of a surface whose own pixels no fog was laid over; a blended one brings as much as it covers.
+vec3 throughFog(vec3 lit, uvec2 pixel, float distance) {
+    if (hasOutput(kOutputFog)) {
+        vec4 medium = fogBefore(pixel, distance);
+        lit = fma(lit, vec3(medium.a), medium.rgb);
+    }
+    return lit;
+}
+
+// What throughFog() will lay over it taken off first.
+vec3 withoutFog(vec3 seen, uvec2 pixel, float distance) {
+    if (hasOutput(kOutputFog)) {
+        vec4 medium = fogBefore(pixel, distance);
+        seen = max(seen - medium.rgb, vec3(0.0)) / max(medium.a, 1e-6);
+    }
+    return seen;
+}

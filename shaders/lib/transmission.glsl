@@ -1,13 +1,10 @@
 // Light that passes a surface as through glass (KHR_materials_transmission, _volume, _dispersion):
 // what the picture behind it shows. A thin wall does not bend it; in a body it is bent once, as it
 // enters, and goes the body's thickness before it is looked up where it then is on screen.
-layout(set = 2, binding = 0) uniform texture2D solid_depth;
+layout(set = FROXEL_BEHIND_SET, binding = 0) uniform texture2D solid_depth;
 // The picture behind this layer, whose alpha is how much of the background is covered. Each level
 // has half the sides of the one before.
-layout(set = 2, binding = 2) uniform sampler2D behind_image;
-
-// Of the instance: a direction of the view to object space.
-layout(location = 5) flat in mat3 object_from_view;
+layout(set = FROXEL_BEHIND_SET, binding = 2) uniform sampler2D behind_image;
 
 // Cubic B-spline by four bilinear samples (Sigg and Hadwiger 2005, "Fast Third-Order Texture
 // Filtering"): a level by itself shows its texels.
@@ -48,8 +45,9 @@ vec2 exitAt(vec3 position_view, vec3 way) {
     return (ray - frame.camera.ray_offset) / frame.camera.ray_scale;
 }
 
-// Along the ray that enters, as far as the body is thick, in metres.
-vec3 wayThrough(Surface s, float ior, float thickness) {
+// Along the ray that enters, as far as the body is thick, in metres. object_from_view: of the
+// instance, of directions.
+vec3 wayThrough(Surface s, mat3 object_from_view, float ior, float thickness) {
     vec3 normal = s.n_dot_eye < 0.0 ? -s.normal_view : s.normal_view;
     vec3 direction = refract(-s.to_eye_view, normal, 1.0 / ior);
     float turned = length(object_from_view * direction);
@@ -64,12 +62,13 @@ vec3 seenAlong(vec3 way, Surface s, vec2 own, float depth, float level) {
     return behindAt(before ? own : at, level);
 }
 
-vec3 seenBent(Surface s, Transmission t, vec3 way, vec2 own, float depth, float level) {
+vec3 seenBent(Surface s, Transmission t, mat3 object_from_view, vec3 way, vec2 own, float depth,
+              float level) {
     vec3 seen = seenAlong(way, s, own, depth, level);
     if (t.dispersion != 0.0) {
         float spread = (t.ior - 1.0) * 0.025 * t.dispersion;
-        vec3 red = wayThrough(s, max(t.ior - spread, 1.0), t.thickness);
-        vec3 blue = wayThrough(s, t.ior + spread, t.thickness);
+        vec3 red = wayThrough(s, object_from_view, max(t.ior - spread, 1.0), t.thickness);
+        vec3 blue = wayThrough(s, object_from_view, t.ior + spread, t.thickness);
         seen.r = seenAlong(red, s, own, depth, level).r;
         seen.b = seenAlong(blue, s, own, depth, level).b;
     }
@@ -78,16 +77,29 @@ vec3 seenBent(Surface s, Transmission t, vec3 way, vec2 own, float depth, float 
 
 // What arrives at the surface from behind; left: the share of white light that is left after the
 // body. depth: of the fragment.
-vec3 seenBehind(Surface s, Transmission t, uvec2 pixel, float depth, out vec3 left) {
+vec3 seenBehind(Surface s, Transmission t, uvec2 pixel, float depth, mat3 object_from_view,
+                out vec3 left) {
     left = vec3(1.0);
     float level = log2(float(frame.camera.width_px)) * t.roughness;
     vec2 own = vec2(pixel) + 0.5;
     if (t.thickness > 0.0) {
-        vec3 way = wayThrough(s, t.ior, t.thickness);
+        vec3 way = wayThrough(s, object_from_view, t.ior, t.thickness);
         if (t.attenuation_m > 0.0) {
             left = attenuated(t.attenuation_color, length(way) / t.attenuation_m);
         }
-        return seenBent(s, t, way, own, depth, level);
+        return seenBent(s, t, object_from_view, way, own, depth, level);
     }
     return level > 0.0 ? behindAt(own, level) : texelFetch(behind_image, ivec2(pixel), 0).rgb;
+}
+
+// What arrives at the surface from behind and is left after the body, without the fog before the
+// surface: what is behind was seen through all of the fog. Of lights behind the surface `sum` keeps
+// what the body leaves.
+vec3 broughtBehind(Surface s, Transmission t, uvec2 pixel, float depth, float distance,
+                   mat3 object_from_view, inout LightSum sum) {
+    vec3 left;
+    vec3 seen = seenBehind(s, t, pixel, depth, object_from_view, left);
+    sum.layers.through = min(sum.layers.through, kMostSum) * left;
+    sum.layers.through_grazing = min(sum.layers.through_grazing, kMostSum) * left;
+    return withoutFog(seen, pixel, distance) * left;
 }

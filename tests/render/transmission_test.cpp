@@ -16,6 +16,21 @@ using settings::Transparency;
 
 class TransmissionTest : public SharedGpuTest {};
 
+// Layers that the rasteriser draws, or whose ids compute rasters.
+class TransmissionWays : public TransmissionTest,
+                         public ::testing::WithParamInterface<render::GeometryPath> {
+  protected:
+    static render::FrameInputs inputsOf(Renderer renderer = Renderer::kForwardPlus);
+};
+
+INSTANTIATE_TEST_SUITE_P(,
+                         TransmissionWays,
+                         ::testing::Values(render::GeometryPath::kRaster,
+                                           render::GeometryPath::kComputeRaster),
+                         [](const auto& way) {
+                             return way.param == render::GeometryPath::kRaster ? "Raster" : "Ids";
+                         });
+
 // It reflects nothing, at no angle.
 scene::Material clearGlass(const glm::vec3& tint = glm::vec3(1)) {
     scene::Material material = chalk();
@@ -53,9 +68,17 @@ SceneMaker wallOfSquares() {
 
 render::FrameInputs inputsOf(Renderer renderer = Renderer::kForwardPlus) {
     render::FrameInputs inputs;
+    inputs.geometry = render::GeometryPath::kRaster;
+    inputs.settings.lighting = settings::LightingStage::kFragment;
     inputs.settings.size = {160, 90};
     inputs.settings.renderer = renderer;
     inputs.settings.lights.count = 0;
+    return inputs;
+}
+
+render::FrameInputs byIds(render::FrameInputs inputs) {
+    inputs.geometry = render::GeometryPath::kComputeRaster;
+    inputs.settings.lighting = settings::LightingStage::kCompute;
     return inputs;
 }
 
@@ -70,18 +93,22 @@ void expectNear(const glm::dvec3& a, const glm::dvec3& b, double error) {
     }
 }
 
+render::FrameInputs TransmissionWays::inputsOf(Renderer renderer) {
+    const auto inputs = test::inputsOf(renderer);
+    return GetParam() == render::GeometryPath::kRaster ? inputs : byIds(inputs);
+}
+
 } // namespace
 
-TEST_F(TransmissionTest, ClearPane_ShowsWhatIsBehindIt_BitForBit) {
+TEST_P(TransmissionWays, ClearPane_ShowsWhatIsBehindIt_BitForBit) {
     SceneMaker bare = wallOfSquares();
     SceneMaker glazed = wallOfSquares();
     glazed.add(paneAt(-2, glazed.add(clearGlass())));
     render::Renderer without(device(), bare.scene);
     render::Renderer with(device(), glazed.scene);
     for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
-        for (const auto stage :
-             {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
-            auto inputs = inputsOf(static_cast<Renderer>(kind));
+        auto inputs = inputsOf(static_cast<Renderer>(kind));
+        for (const auto stage : {inputs.settings.lighting, settings::LightingStage::kCompute}) {
             inputs.settings.lighting = stage;
             const Picture seen = draw(with, inputs);
             EXPECT_TRUE(hasPass(seen, "transmission"));
@@ -92,7 +119,7 @@ TEST_F(TransmissionTest, ClearPane_ShowsWhatIsBehindIt_BitForBit) {
 }
 
 // Each pane takes its share of what is behind it, whatever the order of the scene.
-TEST_F(TransmissionTest, TintedPanes_OneBehindAnother_MultiplyTheirTints) {
+TEST_P(TransmissionWays, TintedPanes_OneBehindAnother_MultiplyTheirTints) {
     const std::array<glm::vec3, 3> tints = {
         glm::vec3(0.9F, 0.5F, 0.7F), glm::vec3(0.4F, 0.8F, 0.6F), glm::vec3(0.7F, 0.6F, 0.3F)};
     SceneMaker maker = wallOfSquares();
@@ -119,7 +146,7 @@ TEST_F(TransmissionTest, TintedPanes_OneBehindAnother_MultiplyTheirTints) {
 }
 
 // Blended surfaces behind a pane are seen through it, and those before it are not.
-TEST_F(TransmissionTest, BlendedSurfaces_BehindAndBeforeAPane_AreInTheirPlaces) {
+TEST_P(TransmissionWays, BlendedSurfaces_BehindAndBeforeAPane_AreInTheirPlaces) {
     const auto blended = [](const glm::vec4& color) {
         scene::Material material = chalk();
         material.base_color = color;
@@ -232,7 +259,7 @@ class GlassCase {
 } // namespace
 
 // A thin, clear pane bends nothing: what is left is arithmetic.
-TEST_F(TransmissionTest, ThinPane_IsTheReference) {
+TEST_P(TransmissionWays, ThinPane_IsTheReference) {
     SceneMaker maker = glassRoom();
     maker.add(paneAt(-2, maker.add(glass(1.5F, 0, 0))));
     maker.add(paneAt(-2.5F, maker.add(glass(1.3F, 0, 0))));
@@ -249,7 +276,7 @@ TEST_F(TransmissionTest, ThinPane_IsTheReference) {
     EXPECT_LT(made.rmse(inputs), 1e-5);
 }
 
-TEST_F(TransmissionTest, LampsBehindARoughPane_AreTheReference) {
+TEST_P(TransmissionWays, LampsBehindARoughPane_AreTheReference) {
     scene::Material black = chalk();
     black.base_color = {0, 0, 0, 1};
     black.specular = 0; // else the pane blurs its highlights, by levels
@@ -266,7 +293,7 @@ TEST_F(TransmissionTest, LampsBehindARoughPane_AreTheReference) {
 
 // What a picture behind costs of exactness, in radiance of about 1: its pixels are looked up
 // between their centres; a level blurs the same whatever is near or far; a body has one interface.
-TEST_F(TransmissionTest, PictureBehind_IsNearWhatRaysSee) {
+TEST_P(TransmissionWays, PictureBehind_IsNearWhatRaysSee) {
     struct Case {
         const char* name;
         float roughness;
@@ -300,7 +327,7 @@ TEST_F(TransmissionTest, PictureBehind_IsNearWhatRaysSee) {
 }
 
 // Of the picture behind only what is seen is made anew: nothing of earlier frames is.
-TEST_F(TransmissionTest, EarlierFrames_AreNotSeen) {
+TEST_P(TransmissionWays, EarlierFrames_AreNotSeen) {
     for (const float roughness : {0.0F, 0.25F, 0.7F}) {
         SCOPED_TRACE(roughness);
         SceneMaker maker = glassRoom();
@@ -324,7 +351,7 @@ TEST_F(TransmissionTest, EarlierFrames_AreNotSeen) {
 }
 
 // Lists are all lights, bit for bit.
-TEST_F(TransmissionTest, Lists_AreAllLights) {
+TEST_P(TransmissionWays, Lists_AreAllLights) {
     SceneMaker maker = glassRoom();
     maker.add(sphere(0.5F, 12, maker.add(glass(1.5F, 0.3F, 0.5F))),
               glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0.2, 0, -2.5, 1}));
@@ -336,6 +363,68 @@ TEST_F(TransmissionTest, Lists_AreAllLights) {
     const Picture lists = draw(renderer, inputs);
     inputs.settings.renderer = Renderer::kNaive;
     EXPECT_EQ(differingFloats(lists, draw(renderer, inputs)), 0U);
+}
+
+namespace {
+
+// Balls inside balls, panes with holes, half-covering and mirrored ones, in several materials: up
+// to ten layers of a pixel.
+SceneMaker muchGlass() {
+    SceneMaker maker = glassRoom();
+    const std::array balls = {maker.add(glass(1.5F, 0, 0.5F)), maker.add(glass(1.3F, 0.3F, 0.2F))};
+    for (int i = 0; i < 6; ++i) {
+        glm::dmat4 place(i % 2 == 0 ? 1 : -1);
+        place[3] = {-0.9 + 0.35 * i, 0.2 * (i % 3) - 0.2, -2.5 - 0.1 * i, 1};
+        maker.add(
+            sphere(0.2F + 0.05F * static_cast<float>(i), 16, balls[static_cast<size_t>(i) % 2]),
+            place);
+    }
+    scene::Material half = glass(1.4F, 0, 0);
+    half.alpha_mode = scene::AlphaMode::kBlend;
+    half.base_color.w = 0.6F;
+    half.double_sided = true;
+    maker.add(paneAt(-1.6F, maker.add(half), 0.4F));
+    scene::Material holed = glass(1.4F, 0, 0);
+    holed.alpha_mode = scene::AlphaMode::kMask;
+    scene::Primitive pane = paneAt(-1.4F, maker.add(holed), 0.5F);
+    pane.colors = {{1, 1, 1, 1}, {1, 1, 1, 0}, {1, 1, 1, 1}, {1, 1, 1, 0}};
+    maker.add(std::move(pane));
+    return maker;
+}
+
+// Of all floats, those that differ by more than a share of the larger.
+double shareApart(const Picture& a, const Picture& b, double share) {
+    size_t apart = 0;
+    for (size_t i = 0; i < a.radiance.size(); ++i) {
+        const auto [least, most] = std::minmax<double>(a.radiance[i], b.radiance[i]);
+        apart += most - least > share * (most + 0.01) ? 1U : 0U;
+    }
+    return static_cast<double>(apart) / static_cast<double>(a.radiance.size());
+}
+
+} // namespace
+
+// Edges of triangles may show a neighbour, and depths of the two ways are apart by their rounding:
+// nothing else differs.
+TEST_F(TransmissionTest, Ids_AreWhatTheRasteriserDraws) {
+    SceneMaker maker = muchGlass();
+    render::Renderer renderer(device(), maker.scene);
+    for (const auto kind :
+         {Renderer::kForwardPlus, Renderer::kClusteredDeferred, Renderer::kToonCompute}) {
+        for (const auto transparency : {Transparency::kSorted, Transparency::kPeeled}) {
+            auto inputs = inputsOf(kind);
+            inputs.settings.size = {320, 180};
+            inputs.settings.transparency = transparency;
+            inputs.settings.peel_layers = 12;
+            inputs.settings.fog.density = 0.1F;
+            const Picture drawn = draw(renderer, inputs);
+            const Picture shaded = draw(renderer, byIds(inputs));
+            EXPECT_FALSE(hasPass(drawn, "raster_meshlets"));
+            EXPECT_TRUE(hasPass(shaded, "raster_meshlets"));
+            EXPECT_LE(shareApart(drawn, shaded, 0.01), 0.005); // seen: 0.0025
+            EXPECT_EQ(shareApart(drawn, shaded, 0.1), 0);
+        }
+    }
 }
 
 } // namespace froxel::test

@@ -2,6 +2,7 @@
 
 #include "embedded.h"
 #include "interface/constants.h"
+#include "render/pipelines/texture_limit.h"
 
 #include <algorithm>
 #include <array>
@@ -45,6 +46,14 @@ gpu::Spirv shadeShader(bool layered, bool bindless, bool batched) {
                     : (batched ? visibility_shade_batched_comp() : visibility_shade_comp());
 }
 
+gpu::Spirv shadeTransmissionShader(bool bindless, bool batched) {
+    using namespace shaders;
+    return bindless ? (batched ? visibility_shade_transmission_batched_bindless_comp()
+                               : visibility_shade_transmission_bindless_comp())
+                    : (batched ? visibility_shade_transmission_batched_comp()
+                               : visibility_shade_transmission_comp());
+}
+
 using Step = VisibilityPipelines::ComputeStep;
 
 gpu::Spirv computeShader(Step step, bool bindless) {
@@ -66,6 +75,16 @@ gpu::Spirv computeShader(Step step, bool bindless) {
         return shaders::raster_far_comp();
     case Step::kHidden:
         return shaders::raster_hidden_comp();
+    case Step::kPeeledMeshlets:
+        return bindless ? shaders::raster_meshlets_peeled_bindless_comp()
+                        : shaders::raster_meshlets_peeled_comp();
+    case Step::kPeeledBlocks:
+        return bindless ? shaders::raster_blocks_peeled_bindless_comp()
+                        : shaders::raster_blocks_peeled_comp();
+    case Step::kLayerTiles:
+        return shaders::layer_tiles_comp();
+    case Step::kLayerTilesDepth:
+        return shaders::layer_tiles_depth_comp();
     case Step::kUnpack:
         break;
     }
@@ -90,6 +109,14 @@ const char* nameOf(Step step) {
         return "farthest depths";
     case Step::kHidden:
         return "hidden meshlets";
+    case Step::kPeeledMeshlets:
+        return "raster meshlets (peeled)";
+    case Step::kPeeledBlocks:
+        return "raster blocks (peeled)";
+    case Step::kLayerTiles:
+        return "tiles of layers";
+    case Step::kLayerTilesDepth:
+        return "tiles and depth of layers";
     case Step::kUnpack:
         break;
     }
@@ -98,6 +125,13 @@ const char* nameOf(Step step) {
 
 } // namespace
 
+bool VisibilityPipelines::canShadeTransmission(const gpu::Device& device) {
+    constexpr uint32_t kSets = 5;
+    return device.limits().maxBoundDescriptorSets >= kSets &&
+           device.traits().most_textures >=
+               kPassTextures + kBehindTextures + materialSlots(device.traits());
+}
+
 VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
                                          const gpu::Timeline& timeline,
                                          VariantMaker& maker,
@@ -105,18 +139,25 @@ VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
                                          uint32_t texture_count)
     : device_(device), bindless_(texture_count > 0), set_layout_(geometryLayout(device)),
       texture_layout_(texturesLayout(device, texture_count)), raster_layout_(nullptr),
-      compute_layout_(nullptr), cull_(nullptr), compact_(nullptr),
+      compute_layout_(nullptr), transmission_layout_(nullptr), cull_(nullptr), compact_(nullptr),
       raster_(timeline, maker, Pipelines::kKeptGeometry),
       gbuffer_(timeline, maker, Pipelines::kKeptGeometry),
       shade_(timeline, maker, Pipelines::kKeptGeometry),
+      shade_transmission_(timeline, maker, Pipelines::kKeptGeometry),
       compute_(timeline, maker, Pipelines::kKeptGeometry) {
     raster_layout_ = gpu::makePipelineLayout(
         device, {shared.frameLayout(), shared.materialLayout(), *set_layout_});
-    compute_layout_ =
-        gpu::makePipelineLayout(device,
-                                {shared.frameLayout(), shared.screenLayout(), *set_layout_,
-                                 bindless_ ? *texture_layout_ : shared.materialLayout()},
-                                2 * sizeof(uint32_t));
+    constexpr uint32_t kPushed = 2 * sizeof(uint32_t);
+    const auto textures = bindless_ ? *texture_layout_ : shared.materialLayout();
+    compute_layout_ = gpu::makePipelineLayout(
+        device, {shared.frameLayout(), shared.screenLayout(), *set_layout_, textures}, kPushed);
+    if (canShadeTransmission(device)) {
+        transmission_layout_ =
+            gpu::makePipelineLayout(device,
+                                    {shared.frameLayout(), shared.screenLayout(), *set_layout_,
+                                     textures, shared.transmissionSetLayout()},
+                                    kPushed);
+    }
     cull_ = gpu::makeComputePipeline(device, shaders::cull_meshlets_comp(), constants({}),
                                      *compute_layout_, "cull");
     compact_ = gpu::makeComputePipeline(device, shaders::cull_compact_comp(), constants({}),
@@ -184,6 +225,14 @@ vk::Pipeline VisibilityPipelines::shade(const VariantKey& key) {
     });
 }
 
+vk::Pipeline VisibilityPipelines::shadeTransmission(const VariantKey& key) {
+    return *shade_transmission_.findOrMake(key, [=, this] {
+        const bool batched = (key.light_flags & io::kLightBatched) != 0;
+        return gpu::makeComputePipeline(device_, shadeTransmissionShader(bindless_, batched),
+                                        constants(key), *transmission_layout_, "layer to radiance");
+    });
+}
+
 vk::Pipeline VisibilityPipelines::compute(ComputeStep step, MaterialFlags material_flags) {
     return *compute_.findOrMake({step, material_flags}, [=, this] {
         return gpu::makeComputePipeline(device_, computeShader(step, bindless_),
@@ -196,6 +245,9 @@ std::vector<Pipelines::Made> VisibilityPipelines::made() const {
     std::vector<Pipelines::Made> all;
     gbuffer_.forEachKey([&](const auto& key) { all.push_back({"visibility gbuffer", key}); });
     shade_.forEachKey([&](const auto& key) { all.push_back({"visibility shade", key}); });
+    shade_transmission_.forEachKey([&](const auto& key) {
+        all.push_back({"visibility transmission", key});
+    });
     return all;
 }
 

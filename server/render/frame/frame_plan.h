@@ -40,6 +40,7 @@ struct FrameFacts {
     bool layers_visible = false;       // solid surfaces with layers are drawn by the rasteriser
     bool transparent_visible = false;  // blended surfaces are in view
     bool transmissive_visible = false; // surfaces that light passes as through glass are in view
+    bool transmissive_by_ids = false;  // and compute can raster their layers
     bool unlit_solid = false;          // SceneNeeds::unlit
     bool compute_batches = false;      // subgroups fetch lights together in compute
     bool fragment_batches = false;     // and in the fragment stage

@@ -88,9 +88,11 @@ vk::raii::DescriptorSetLayout blendSetLayout(const gpu::Device& device) {
 
 vk::raii::DescriptorSetLayout transmissionSetLayout(const gpu::Device& device) {
     const std::array bindings = {
-        vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1, Stage::eFragment},
+        vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1,
+                                       Stage::eFragment | Stage::eCompute},
         vk::DescriptorSetLayoutBinding{1, Type::eSampledImage, 1, Stage::eFragment},
-        vk::DescriptorSetLayoutBinding{2, Type::eCombinedImageSampler, 1, Stage::eFragment}};
+        vk::DescriptorSetLayoutBinding{2, Type::eCombinedImageSampler, 1,
+                                       Stage::eFragment | Stage::eCompute}};
     return gpu::makeSetLayout(device, bindings);
 }
 

@@ -10,6 +10,8 @@ namespace froxel::render {
 // Images and texel buffers that a pass over surfaces reads at most, beside materials': the frame's
 // set and the screen's, or what is seen through a surface, which is no more.
 inline constexpr uint32_t kPassTextures = 17;
+// And more of one that resolves ids of surfaces that transmit light.
+inline constexpr uint32_t kBehindTextures = 2;
 // Of these, those with samplers.
 inline constexpr uint32_t kPassSamplers = 1;
 

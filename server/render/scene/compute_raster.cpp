@@ -44,7 +44,7 @@ std::vector<io::RasterBatch> emptyBatches(const VisibilityScene& scene, uint32_t
                       .first = i * meshlet_count,
                       .first_drawn = (i > 0 ? i - 1 : 0) * meshlet_count,
                       .listed_of_all = 0,
-                      .padding0 = 0};
+                      .layer_count = 0};
     }
     return batches;
 }
@@ -56,9 +56,16 @@ std::string ComputeRaster::unusable(const gpu::Device& device, const VisibilityS
         return "the device lacks shaderBufferInt64Atomics";
     }
     const uint32_t each = meshletsOfBatch(device, scene, io::kRasterMostTriangles);
-    if (batchesOf(scene, each) > io::kRasterMostBatches) {
-        return "the scene has more meshlets than " + std::to_string(io::kRasterMostBatches) +
-               " batches may have";
+    if (scene.surfaces == Surfaces::kTransmissive &&
+        device.limits().maxComputeWorkGroupInvocations < io::kPeeledGroup) {
+        return "the device runs fewer than " + std::to_string(io::kPeeledGroup) +
+               " invocations in a workgroup";
+    }
+    // What a batch hides of later ones is not known where several layers are kept.
+
+    const size_t most = scene.surfaces == Surfaces::kSolid ? io::kRasterMostBatches : 1;
+    if (batchesOf(scene, each) > most) {
+        return "the scene has more meshlets than " + std::to_string(most) + " batches may have";
     }
     return {};
 }

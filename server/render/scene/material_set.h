@@ -28,8 +28,11 @@ struct DrawItem {
 [[nodiscard]] inline bool isSolid(const DrawItem& item) {
     return isSolid(item.material_flags);
 }
-// Of any of them that is solid.
-[[nodiscard]] MaterialFlags solidFlags(std::span<const DrawItem> items);
+[[nodiscard]] constexpr bool isOf(Surfaces surfaces, MaterialFlags material_flags) {
+    return surfaces == Surfaces::kSolid ? isSolid(material_flags) : isTransmissive(material_flags);
+}
+// Of any of them that is such a surface.
+[[nodiscard]] MaterialFlags flagsOf(std::span<const DrawItem> items, Surfaces surfaces);
 
 // Used by the render thread; frames on the device hold the one that they draw.
 class MaterialSet {
@@ -41,17 +44,27 @@ class MaterialSet {
     const SurfaceNeeds needs;
     const MaterialFlags solid_flags; // of the items
     // Why; empty: visibility passes can draw it.
-    [[nodiscard]] const std::string& visibilityUnusable(Detail detail = Detail::kExact) const {
-        return unusable_[static_cast<size_t>(detail)];
+    [[nodiscard]] const std::string&
+    visibilityUnusable(Detail detail = Detail::kExact, Surfaces surfaces = Surfaces::kSolid) const {
+        return unusable_[index(surfaces, detail)];
     }
 
     // Made at the first call; visibilityUnusable() is empty. Throws vk::SystemError.
-    [[nodiscard]] VisibilityScene& visibility(Detail detail = Detail::kExact);
+    [[nodiscard]] VisibilityScene& visibility(Detail detail = Detail::kExact,
+                                              Surfaces surfaces = Surfaces::kSolid);
 
   private:
+    // Of each Surfaces, of each Detail.
+    static constexpr size_t kKinds = 4;
+    static constexpr size_t index(Surfaces surfaces, Detail detail) {
+        return 2 * static_cast<size_t>(surfaces) + static_cast<size_t>(detail);
+    }
+    static std::array<std::string, kKinds> findUnusable(const SceneResources& scene,
+                                                        std::span<const DrawItem> items);
+
     SceneResources& scene_;
-    const std::array<std::string, 2> unusable_; // of each Detail
-    std::array<std::unique_ptr<VisibilityScene>, 2> visibility_;
+    const std::array<std::string, kKinds> unusable_;
+    std::array<std::unique_ptr<VisibilityScene>, kKinds> visibility_;
 };
 
 } // namespace froxel::render

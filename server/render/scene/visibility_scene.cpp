@@ -37,11 +37,14 @@ auto groupKey(const DrawItem& item) {
 // Placed meshlets in the order of their draws, groups filled up to whole workgroups.
 class Placer {
   public:
-    Placer(const SceneResources& scene, std::span<const DrawItem> drawn, Detail detail)
+    Placer(const SceneResources& scene,
+           std::span<const DrawItem> drawn,
+           Surfaces surfaces,
+           Detail detail)
         : scene_(scene), with_levels_(detail == Detail::kLevels) {
         std::vector<uint32_t> order;
         for (uint32_t i = 0; i < drawn.size(); ++i) {
-            if (isSolid(drawn[i])) {
+            if (isOf(surfaces, drawn[i].material_flags)) {
                 order.push_back(i);
             }
         }
@@ -113,8 +116,12 @@ class Placer {
 
 std::string VisibilityScene::unusable(const SceneResources& scene,
                                       std::span<const DrawItem> drawn,
+                                      Surfaces surfaces,
                                       Detail detail) {
     const gpu::Device& device = scene.shared.device;
+    if (surfaces == Surfaces::kTransmissive && !VisibilityPipelines::canShadeTransmission(device)) {
+        return "the device binds too few textures or descriptor sets";
+    }
     if (const auto& lacks = device.traits().visibility_lacks; !lacks.empty()) {
         return "the device lacks " + lacks;
     }
@@ -124,8 +131,9 @@ std::string VisibilityScene::unusable(const SceneResources& scene,
         const auto& primitive = item.primitive;
         const bool levels = detail == Detail::kLevels;
         meshlet_count +=
-            isSolid(item) ? primitive.meshlet_count + (levels ? primitive.coarser_meshlet_count : 0)
-                          : 0;
+            isOf(surfaces, item.material_flags)
+                ? primitive.meshlet_count + (levels ? primitive.coarser_meshlet_count : 0)
+                : 0;
     }
     meshlet_count += size_t{io::kCullGroup} * 4 * (scene.material_uniforms.size() + 1);
     const size_t most = std::min(kMostMeshlets, size_t{io::kCullGroup} *
@@ -138,11 +146,12 @@ std::string VisibilityScene::unusable(const SceneResources& scene,
 
 VisibilityScene::VisibilityScene(SceneResources& scene,
                                  std::span<const DrawItem> drawn,
+                                 Surfaces surfaces_in,
                                  Detail detail,
                                  gpu::Uploader& uploader)
-    : material_flags(solidFlags(drawn)), arena(scene.shared.device),
+    : surfaces(surfaces_in), material_flags(flagsOf(drawn, surfaces)), arena(scene.shared.device),
       pipelines(scene.visibilityPipelines()), device_(scene.shared.device) {
-    Placer placer(scene, drawn, detail);
+    Placer placer(scene, drawn, surfaces, detail);
     groups = std::move(placer.groups);
     placed = std::move(placer.meshlets);
     triangle_count = placer.triangle_count;
@@ -263,8 +272,9 @@ void VisibilityFrame::write(const Bindings& bindings) {
     buffers[21] = s.hasLevels() ? whole(s.details) : none;
     buffers[22] = whole(s.meshlets);
     buffers[23] = raster != nullptr ? all(s.words) : none;
-    buffers[24] =
-        raster != nullptr && *raster->far_depths.handle ? whole(raster->far_depths) : none;
+    buffers[24] = bindings.tiles                                    ? all(bindings.tiles)
+                  : raster != nullptr && *raster->far_depths.handle ? whole(raster->far_depths)
+                                                                    : none;
     std::array<vk::DescriptorImageInfo, VisibilityPipelines::kBindings> images;
     const auto image = [&](uint32_t binding, vk::ImageView view) {
         images[binding] = {.imageView = view, .imageLayout = vk::ImageLayout::eGeneral};

@@ -1,5 +1,6 @@
-// What the visibility passes know of a scene: every solid meshlet where it is placed, in the order
-// of their draws, and all materials at once. Made when a frame first asks for it.
+// What the visibility passes know of a scene: every meshlet of its solid surfaces, or of those that
+// transmit light, where it is placed, in the order of their draws, and all materials at once. Made
+// when a frame first asks for it.
 #pragma once
 
 #include "gpu/memory.h"
@@ -35,6 +36,9 @@ struct VisibilityGroup {
 // Which meshlets there are: those of the scene's triangles, or of its coarser levels, too.
 enum class Detail : uint8_t { kExact, kLevels };
 
+// Which surfaces: of several layers of a pixel only those that transmit light are kept.
+enum class Surfaces : uint8_t { kSolid, kTransmissive };
+
 // What culling hands on to the rasteriser; frames of all viewers follow each other on one queue.
 struct CulledDraws {
     CulledDraws(const gpu::Device& device, const VisibilityScene& scene);
@@ -51,22 +55,30 @@ class VisibilityScene {
     // Throws vk::SystemError.
     VisibilityScene(SceneResources& scene,
                     std::span<const DrawItem> drawn,
+                    Surfaces surfaces,
                     Detail detail,
                     gpu::Uploader& uploader);
 
     // Empty when visibility passes can draw them on the device, else why not.
-    [[nodiscard]] static std::string
-    unusable(const SceneResources& scene, std::span<const DrawItem> drawn, Detail detail);
+    [[nodiscard]] static std::string unusable(const SceneResources& scene,
+                                              std::span<const DrawItem> drawn,
+                                              Surfaces surfaces,
+                                              Detail detail);
+
+    const Surfaces surfaces;
 
     std::vector<VisibilityGroup> groups;
     std::vector<uint32_t> materials_in_use;
     std::vector<io::PlacedMeshlet> placed; // the host's copy, for ordering them
-    // Whether frames order them, near ones first: of more it would take too long.
-    [[nodiscard]] bool ordered() const { return placed.size() <= kMostOrdered; }
+    // Whether frames order them, near ones first: of more it would take too long, and those of
+    // which several layers are kept spare each other nothing.
+    [[nodiscard]] bool ordered() const {
+        return surfaces == Surfaces::kSolid && placed.size() <= kMostOrdered;
+    }
     [[nodiscard]] bool hasLevels() const { return *details.handle != vk::Buffer{}; }
     std::vector<uint32_t> item_instances;
     uint32_t block_count = 0;
-    const MaterialFlags material_flags; // of any solid item
+    const MaterialFlags material_flags; // of any item
     uint32_t triangle_count = 0;        // of all meshlets
 
     gpu::MemoryArena arena;
@@ -125,6 +137,7 @@ class VisibilityFrame {
         const ComputeRaster* raster = nullptr;
         vk::Buffer words;
         vk::ImageView depth;
+        vk::Buffer tiles = {}; // of layers, where several are kept; else none
     };
     // The slot is not in flight.
     void write(const Bindings& bindings);
@@ -134,6 +147,12 @@ class VisibilityFrame {
     const gpu::Device& device_;
     vk::raii::DescriptorPool pool_;
     vk::raii::DescriptorSet set_{nullptr};
+};
+
+// Likewise, of surfaces that transmit light, of the same slot.
+class TransmissiveFrame : public VisibilityFrame {
+  public:
+    using VisibilityFrame::VisibilityFrame;
 };
 
 } // namespace froxel::render

@@ -1,6 +1,5 @@
-// Surfaces that light passes as through glass. Their layers are peeled from the eye; then each, the
-// farthest first, is drawn over the picture, of which it sees a copy: what is solid, and the layers
-// behind it.
+// Surfaces that light passes as through glass: their layers, the farthest first, are drawn over the
+// picture, of which each sees a copy: what is solid, and the layers behind it.
 #include "embedded.h"
 #include "gpu/pipeline.h"
 #include "interface/constants.h"
@@ -16,6 +15,8 @@
 #include "render/steps/transmission_targets.h"
 #include "render/surfaces/geometry_draws.h"
 #include "render/surfaces/rendering_scope.h"
+#include "render/surfaces/visibility_binding.h"
+#include "render/surfaces/visibility_passes.h"
 
 #include <algorithm>
 #include <array>
@@ -29,9 +30,6 @@ using Access = vk::AccessFlagBits2;
 using LoadOp = vk::AttachmentLoadOp;
 using Stage = vk::PipelineStageFlagBits2;
 
-// Of a pixel, where transparency is not peeled, which has a number of its own.
-constexpr uint32_t kMostLayers = 4;
-
 // Shared by every view.
 class BehindPipelines {
   public:
@@ -39,18 +37,20 @@ class BehindPipelines {
         : device_(shared.device),
           layout_(gpu::makePipelineLayout(device_,
                                           {shared.pipelines.frameLayout(),
-                                           shared.pipelines.screenLayout(), levelLayout(shared)})),
+                                           shared.pipelines.screenLayout(), levelLayout(shared)},
+                                          sizeof(uint32_t))),
           level_layout_(gpu::makePipelineLayout(device_, {levelLayout(shared)})),
-          made_(shared.timeline, shared.variants, settings::kToneMapNames.size()),
+          made_(shared.timeline, shared.variants, 2 * settings::kToneMapNames.size()),
           level_(gpu::makeComputePipeline(
               device_, shaders::behind_level_comp(), {}, *level_layout_, "level behind")) {}
 
-    // May throw VariantsMissing.
-    [[nodiscard]] vk::Pipeline copy(uint32_t output_flags) {
-        return *made_.findOrMake(output_flags, [=, this] {
-            return gpu::makeComputePipeline(device_, shaders::behind_comp(),
-                                            specConstants({0, 0, output_flags}, device_.traits()),
-                                            *layout_, pass::kBehind);
+    // in_tiles: of a layer alone. May throw VariantsMissing.
+    [[nodiscard]] vk::Pipeline copy(uint32_t output_flags, bool in_tiles) {
+        return *made_.findOrMake(std::pair(output_flags, in_tiles), [=, this] {
+            return gpu::makeComputePipeline(
+                device_, in_tiles ? shaders::behind_tiles_comp() : shaders::behind_comp(),
+
+                specConstants({0, 0, output_flags}, device_.traits()), *layout_, pass::kBehind);
         });
     }
     [[nodiscard]] SharedPipeline& level() { return level_; }
@@ -65,19 +65,9 @@ class BehindPipelines {
     const gpu::Device& device_;
     vk::raii::PipelineLayout layout_;
     vk::raii::PipelineLayout level_layout_;
-    VariantCache<uint32_t> made_;
+    VariantCache<std::pair<uint32_t, bool>> made_;
     SharedPipeline level_;
 };
-
-const TransmissionTargets& targetsOf(const FrameContext& frame) {
-    return frame.slot.step_targets.get<TransmissionTargets>();
-}
-
-void bindTransmission(const FrameContext& frame, vk::DescriptorSet set) {
-    frame.slot.cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
-                                      frame.scene.shared.pipelines.transmissionPipelineLayout(), 2,
-                                      set, {});
-}
 
 // Of a region, in texels of a level of half the sides; with what its neighbours take of it. Corners
 // are those of workgroups.
@@ -93,23 +83,6 @@ vk::Rect2D coarser(const vk::Rect2D& region, const vk::Extent2D& extent) {
         {static_cast<uint32_t>(high(region.offset.x, region.extent.width, extent.width) - from.x),
          static_cast<uint32_t>(high(region.offset.y, region.extent.height, extent.height) -
                                from.y)}};
-}
-
-// What holds all parts, with a corner that is a workgroup's.
-vk::Rect2D around(std::span<const vk::Rect2D> parts) {
-    constexpr auto kGroup = static_cast<int32_t>(io::kScreenGroup);
-    vk::Offset2D low{INT32_MAX, INT32_MAX};
-    vk::Offset2D high{0, 0};
-    for (const vk::Rect2D& part : parts) {
-        low.x = std::min(low.x, part.offset.x / kGroup * kGroup);
-        low.y = std::min(low.y, part.offset.y / kGroup * kGroup);
-        high.x = std::max(high.x, part.offset.x + static_cast<int32_t>(part.extent.width));
-        high.y = std::max(high.y, part.offset.y + static_cast<int32_t>(part.extent.height));
-    }
-    if (high.x <= low.x || high.y <= low.y) {
-        return {};
-    }
-    return {low, {static_cast<uint32_t>(high.x - low.x), static_cast<uint32_t>(high.y - low.y)}};
 }
 
 // Texels of a level around a point that its lookup takes from, by the spline, by means of finer
@@ -150,97 +123,13 @@ RegionCost layerCost(const FrameCosts& costs, uint32_t layer, uint32_t layer_cou
             all.least};
 }
 
-class TransmissionDepth final : public Step {
-  public:
-    explicit TransmissionDepth(SceneResources& scene) : scene_(scene) {}
-
-    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        Seconds sum{0};
-        for (uint32_t layer = 0; layer < shape_.layer_count; ++layer) {
-            sum += timeOver(depthCost(costs, clearedBy(layer)), costs.load().size.drawn);
-        }
-        passes.push_back({pass::kTransmissionDepth, sum});
-    }
-    void addMemory(NeedList& need) const override {
-        const TransmissionImages images = transmissionImages(drawn_, shape_);
-        need.image("picture behind", images.behind);
-        for (uint32_t layer = 0; layer < shape_.layer_count; ++layer) {
-            need.image("transmissive layer depth", images.layer_depth);
-        }
-    }
-
-    void freeUnfit(const ViewTargets* view) override {
-        if (targets_ && (view == nullptr || !targets_->fits(shape_, *view))) {
-            targets_.reset();
-        }
-    }
-    void freeTargets() override { targets_.reset(); }
-    void prepare(FrameSlot& slot, FrameBlocks& blocks) override {
-        if (targets_ && !targets_->fits(shape_, *slot.targets)) {
-            targets_.reset(); // before its successor takes memory
-        }
-        if (!targets_) {
-            targets_ = std::make_shared<TransmissionTargets>(scene_.shared, shape_, slot.targets);
-        }
-        slot.step_targets.hold(targets_);
-        blocks[io::kTransmissiveDepthBinding].image = *targets_->layer_depths.front().view;
-    }
-    void record(const FrameContext& frame) const override {
-        for (uint32_t layer = 0; layer < shape_.layer_count; ++layer) {
-            if (layer > 0) {
-                nextRasterPass(frame.slot.cmd);
-            }
-            const vk::Rect2D region = clearedBy(layer);
-            inParts(frame, frame.drawn(), depthCost(frame.costs, region),
-                    [layer, region](const FrameContext& at, const vk::Rect2D& part) {
-                        recordPart(at, common(part, region), layer);
-                    });
-        }
-    }
-
-  private:
-    Result<void> build(const StepInputs& inputs, const FramePlan& /*frame*/) override {
-        drawn_ = inputs.size.drawn;
-        shape_ = transmissionShape(scene_, inputs, plan().count);
-        covered_ = around(inputs.draws.transmissive.parts);
-        return {};
-    }
-    // Blended surfaces anywhere ask where the nearest layer is.
-    [[nodiscard]] vk::Rect2D clearedBy(uint32_t layer) const {
-        const bool everywhere = layer == 0 && plan().blended_output_flags != 0;
-        return everywhere ? vk::Rect2D{{0, 0}, {drawn_.width_px, drawn_.height_px}} : covered_;
-    }
-    static RegionCost depthCost(const FrameCosts& costs, const vk::Rect2D& region) {
-        const RegionCost depth = costs.depth();
-        return {depth.each,
-                [depth, region](const vk::Rect2D& part) { return depth.of(common(part, region)); }};
-    }
-    static void recordPart(const FrameContext& frame, const vk::Rect2D& part, uint32_t layer) {
-        if (part.extent.width == 0) {
-            return;
-        }
-        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransmissionDepth);
-        const auto& targets = targetsOf(frame);
-        const auto depth = attachment(targets.layer_depths[layer], LoadOp::eClear, farDepth());
-        const Rendering rendering(frame, part, {}, &depth);
-        bindTransmission(frame, targets.depthSet(layer));
-        drawGroups(frame, GeometryPass::kTransmissionDepth, frame.draws.transmissive.groups, layer);
-    }
-
-    SceneResources& scene_;
-    settings::Size drawn_;
-    TransmissionShape shape_;
-    vk::Rect2D covered_;                           // by surfaces
-    std::shared_ptr<TransmissionTargets> targets_; // null: the last frame has none
-};
-
 class Transmission final : public Step {
   public:
     explicit Transmission(SceneResources& scene) : scene_(scene) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override;
     [[nodiscard]] double loopCost(const FrameCosts& costs) const override {
-        return costs.shadedLoop(costs.unit().fragment);
+        return costs.shadedLoop(byIds() ? costs.unit().compute : costs.unit().fragment);
     }
     void record(const FrameContext& frame) const override {
         for (uint32_t layer = shape_.layer_count; layer-- > 0;) {
@@ -252,7 +141,11 @@ class Transmission final : public Step {
   private:
     Result<void> build(const StepInputs& inputs, const FramePlan& /*frame*/) override {
         drawn_ = inputs.size.drawn;
-        shape_ = transmissionShape(scene_, inputs, plan().count);
+        shape_ = transmissionShape(scene_, inputs, plan());
+        visible_ = byIds() ? &inputs.pose.materialSet()->visibility(
+                                 scene_.detailOf(inputs.settings.geometry_error_px),
+                                 Surfaces::kTransmissive)
+                           : nullptr;
         const LayeredDraws& draws = inputs.draws.transmissive;
         covered_ = around(draws.parts);
         const float highest = highestLevel(scene_, inputs);
@@ -263,6 +156,7 @@ class Transmission final : public Step {
         }
         return {};
     }
+    [[nodiscard]] bool byIds() const { return (plan().way & kLayersByIds) != 0; }
     // Of what the farthest layer sees; of the others what differs from that, where surfaces are.
     [[nodiscard]] const vk::Rect2D& regionBehind(uint32_t layer) const {
         return layer + 1 == shape_.layer_count ? seen_ : covered_;
@@ -270,9 +164,18 @@ class Transmission final : public Step {
     [[nodiscard]] static RegionCost behindCost(const FrameCosts& costs, const vk::Rect2D& region);
     [[nodiscard]] Seconds levelsCost(const FrameCosts& costs, const vk::Rect2D& region) const;
     void recordBehind(const FrameContext& frame, uint32_t layer) const;
+    void copyBehind(const FrameContext& frame, const vk::Rect2D& part, uint32_t layer) const;
     void recordLevels(const FrameContext& frame, vk::Rect2D region) const;
+    // Whether a part is all that layers cover, so that their tiles are all there is to do.
+    [[nodiscard]] bool inTiles(const vk::Rect2D& part) const {
+        const uint32_t tiles = screenGroups(drawn_.width_px) * screenGroups(drawn_.height_px);
+        return byIds() && part == covered_ &&
+               tiles <= scene_.shared.device.limits().maxComputeWorkGroupCount[0];
+    }
+
     void recordLayer(const FrameContext& frame, uint32_t layer) const;
     static void drawLayer(const FrameContext& frame, const vk::Rect2D& part, uint32_t layer);
+    void shadeLayer(const FrameContext& frame, const vk::Rect2D& part, uint32_t layer) const;
 
     SceneResources& scene_;
     settings::Size drawn_;
@@ -280,6 +183,7 @@ class Transmission final : public Step {
     vk::Rect2D covered_; // by surfaces
     vk::Rect2D seen_;    // what these may see
     uint32_t levels_built_ = 1;
+    VisibilityScene* visible_ = nullptr; // by ids: of the frame's materials
 };
 
 RegionCost Transmission::behindCost(const FrameCosts& costs, const vk::Rect2D& region) {
@@ -311,32 +215,47 @@ void Transmission::addCosts(const FrameCosts& costs, std::vector<PassEstimate>& 
 void Transmission::recordBehind(const FrameContext& frame, uint32_t layer) const {
     const vk::Rect2D& region = regionBehind(layer);
     // the picture, what earlier layers still look up -> loads and stores of compute
-    barrier(frame.slot.cmd, Stage::eColorAttachmentOutput | Stage::eFragmentShader,
-            Access::eColorAttachmentWrite, Stage::eComputeShader, use::kLoadStore);
+    byIds() ? nextComputePass(frame.slot.cmd)
+            : barrier(frame.slot.cmd, Stage::eColorAttachmentOutput | Stage::eFragmentShader,
+                      Access::eColorAttachmentWrite, Stage::eComputeShader, use::kLoadStore);
     inParts(frame, frame.drawn(), behindCost(frame.costs, region),
-            [&region](const FrameContext& at, const vk::Rect2D& part) {
+            [this, &region, layer](const FrameContext& at, const vk::Rect2D& part) {
                 const vk::Rect2D both = common(part, region);
                 if (both.extent.width == 0) {
                     return;
                 }
-                const gpu::PassScope scope(at.slot.timestamps, at.slot.cmd, pass::kBehind);
-                auto& pipelines = at.scene.shared.stored<BehindPipelines>();
-                at.slot.cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
-                                         pipelines.copy(at.plan.tone_output_flags));
-                const std::array sets = {*at.slot.frame_set, *at.slot.screen_set,
-                                         targetsOf(at).levelSet(0)};
-                at.slot.cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.layout(),
-                                               0, sets, {});
-                dispatchOver(at.slot.cmd, both);
+                copyBehind(at, both, layer);
             });
     if (shape_.level_count > 1) {
         recordLevels(frame, region);
     }
     // the picture behind -> lookups; loads of the picture -> blending
-    barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
-            Stage::eFragmentShader | Stage::eColorAttachmentOutput,
-            Access::eShaderSampledRead | Access::eColorAttachmentRead |
-                Access::eColorAttachmentWrite);
+    byIds() ? nextComputePass(frame.slot.cmd)
+            : barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
+                      Stage::eFragmentShader | Stage::eColorAttachmentOutput,
+                      Access::eShaderSampledRead | Access::eColorAttachmentRead |
+                          Access::eColorAttachmentWrite);
+}
+
+void Transmission::copyBehind(const FrameContext& frame,
+                              const vk::Rect2D& part,
+                              uint32_t layer) const {
+    const auto& cmd = frame.slot.cmd;
+    const gpu::PassScope scope(frame.slot.timestamps, cmd, pass::kBehind);
+    auto& pipelines = frame.scene.shared.stored<BehindPipelines>();
+    const bool changed_alone = layer + 1 < shape_.layer_count && inTiles(part);
+    cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
+                     pipelines.copy(frame.plan.tone_output_flags, changed_alone));
+    const auto& targets = transmissionTargets(frame);
+    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set, targets.levelSet(0)};
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines.layout(), 0, sets, {});
+    if (changed_alone) {
+        cmd.pushConstants<uint32_t>(pipelines.layout(), vk::ShaderStageFlagBits::eCompute, 0,
+                                    layer + 1);
+        dispatchTiles(frame, *targets.tiles.handle, layer + 1);
+    } else {
+        dispatchOver(cmd, part);
+    }
 }
 
 void Transmission::recordLevels(const FrameContext& frame, vk::Rect2D region) const {
@@ -345,7 +264,7 @@ void Transmission::recordLevels(const FrameContext& frame, vk::Rect2D region) co
     const gpu::PassScope scope(frame.slot.timestamps, cmd, pass::kBehind);
     auto& pipelines = scene_.shared.stored<BehindPipelines>();
     pipelines.level().bind(cmd, scene_.shared.variants);
-    const auto& targets = targetsOf(frame);
+    const auto& targets = transmissionTargets(frame);
     for (uint32_t level = 1; level < levels_built_; ++level) {
         nextComputePass(cmd);
         region = coarser(region, targets.levelExtent(level));
@@ -360,33 +279,32 @@ void Transmission::recordLayer(const FrameContext& frame, uint32_t layer) const 
             [this, layer](const FrameContext& at, const vk::Rect2D& part) {
                 const vk::Rect2D both = common(part, covered_);
                 if (both.extent.width > 0) {
-                    drawLayer(at, both, layer);
+                    byIds() ? shadeLayer(at, both, layer) : drawLayer(at, both, layer);
                 }
             });
+}
+
+void Transmission::shadeLayer(const FrameContext& frame,
+                              const vk::Rect2D& part,
+                              uint32_t layer) const {
+    FrameContext of_layers = frame;
+    of_layers.visibility = visible_;
+    const auto& targets = transmissionTargets(frame);
+    recordVisibilityTransmission(of_layers, part, targets.behindSet(), layer,
+                                 inTiles(part) ? *targets.tiles.handle : vk::Buffer{});
 }
 
 void Transmission::drawLayer(const FrameContext& frame, const vk::Rect2D& part, uint32_t layer) {
     const auto pass = GeometryPass::kTransmission;
     inGroups(frame, pass, frame.draws.transmissive.groups, [&](const auto& groups, bool) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransmission);
-        const auto& targets = targetsOf(frame);
+        const auto& targets = transmissionTargets(frame);
         const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
         const auto depth = attachment(targets.layer_depths[layer], LoadOp::eLoad);
         const Rendering rendering(frame, part, colors, &depth);
         bindTransmission(frame, targets.behindSet());
         drawGroups(frame, pass, groups);
     });
-}
-
-uint32_t mostLayers(const settings::ViewSettings& settings) {
-    return settings.transparency == settings::Transparency::kPeeled ? settings.peel_layers
-                                                                    : kMostLayers;
-}
-
-std::optional<StepPlan> planOfTransmission(const PlanInputs& inputs) {
-    return inputs.facts.transmissive_visible
-               ? std::optional(StepPlan{.count = mostLayers(inputs.settings)})
-               : std::nullopt;
 }
 
 std::string wordsOfTransmission(const PlanInputs& inputs, const StepPlan* plan) {
@@ -396,47 +314,37 @@ std::string wordsOfTransmission(const PlanInputs& inputs, const StepPlan* plan) 
     return plan == nullptr
                ? std::string("no surface in view that transmits light: no copy of the picture")
                : "surfaces in view that transmit light: up to " + std::to_string(plan->count) +
-                     " layers, each drawn over a copy of the picture behind it";
+                     " layers, each drawn " +
+                     ((plan->way & kLayersByIds) != 0 ? "from ids in compute " : "") +
+                     "over a copy of the picture behind it";
+}
+
+std::vector<Use> usesOfTransmission(const FramePlan& /*frame*/, const StepPlan& plan) {
+    if ((plan.way & kLayersByIds) != 0) {
+        return withLights(
+            {use::loaded(Resource::kPosed),
+             use::sampled(Resource::kDepth),
+             {Resource::kTransmissiveDepth, Stage::eComputeShader | Stage::eDrawIndirect,
+              Access::eShaderStorageRead | Access::eIndirectCommandRead},
+             use::stored(Resource::kRadiance)},
+            Stage::eComputeShader);
+    }
+    return withLights(
+        {use::vertices(),
+         use::sampled(Resource::kDepth, Stage::eFragmentShader),
+         {Resource::kTransmissiveDepth, kDepthStages, Access::eDepthStencilAttachmentRead},
+         use::loaded(Resource::kRadiance),
+         use::drawn(Resource::kRadiance)},
+        Stage::eFragmentShader);
 }
 
 } // namespace
 
-const StepRow kTransmissionDepthStep{
-    .name = pass::kTransmissionDepth,
-    .part = StepPart::kPicture,
-    .plan =
-        [](const PlanInputs& inputs) {
-            auto plan = planOfTransmission(inputs);
-            if (plan && inputs.facts.transparent_visible) {
-                plan->blended_output_flags = io::kOutputBeforeTransmissive;
-            }
-            return plan;
-        },
-    .uses =
-        [](const FramePlan&, const StepPlan&) {
-            return std::vector{
-                use::vertices(),
-                use::sampled(Resource::kDepth, Stage::eFragmentShader),
-                {Resource::kTransmissiveDepth, kDepthStages,
-                 Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite}};
-        },
-    .make = makeStep<TransmissionDepth>};
-
-const StepRow kTransmissionStep{
-    .name = pass::kTransmission,
-    .part = StepPart::kPicture,
-    .plan = planOfTransmission,
-    .uses =
-        [](const FramePlan&, const StepPlan&) {
-            return withLights(
-                {use::vertices(),
-                 use::sampled(Resource::kDepth, Stage::eFragmentShader),
-                 {Resource::kTransmissiveDepth, kDepthStages, Access::eDepthStencilAttachmentRead},
-                 use::loaded(Resource::kRadiance),
-                 use::drawn(Resource::kRadiance)},
-                Stage::eFragmentShader);
-        },
-    .words = wordsOfTransmission,
-    .make = makeStep<Transmission>};
+const StepRow kTransmissionStep{.name = pass::kTransmission,
+                                .part = StepPart::kPicture,
+                                .plan = planOfTransmission,
+                                .uses = usesOfTransmission,
+                                .words = wordsOfTransmission,
+                                .make = makeStep<Transmission>};
 
 } // namespace froxel::render

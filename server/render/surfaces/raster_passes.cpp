@@ -20,6 +20,20 @@ const ComputeRaster& raster(const FrameContext& frame) {
 
 using RasterStep = VisibilityPipelines::ComputeStep;
 
+bool keepsLayers(const FrameContext& frame) {
+    return frame.visibility->surfaces == Surfaces::kTransmissive;
+}
+
+const char* passName(const FrameContext& frame, const char* of_solid) {
+    return keepsLayers(frame) ? pass::kTransmissionDepth : of_solid;
+}
+
+RasterStep stepOfMeshlets(const FrameContext& frame) {
+    return keepsLayers(frame)            ? RasterStep::kPeeledMeshlets
+           : raster(frame).many_meshlets ? RasterStep::kManyMeshlets
+                                         : RasterStep::kMeshlets;
+}
+
 // What is opaque; then what is masked, with all textures or one material's at a time.
 template <class Dispatch>
 void drawMaterials(const FrameContext& frame, RasterStep step, uint32_t batch, Dispatch dispatch) {
@@ -82,7 +96,7 @@ void recordRasterSpoil(const FrameContext& frame) {
 }
 
 void recordRasterCull(const FrameContext& frame, bool culls) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kCull);
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, passName(frame, pass::kCull));
     const auto& scene = *frame.visibility;
     const auto step = scene.hasLevels() ? RasterStep::kCullListDetail : RasterStep::kCullList;
     dispatchCull(frame, scene.pipelines.compute(step), culls);
@@ -93,17 +107,18 @@ uint32_t rasterBatchCount(const FrameContext& frame) {
 }
 
 void recordRasterMeshlets(const FrameContext& frame, uint32_t batch) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterMeshlets);
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd,
+                               passName(frame, pass::kRasterMeshlets));
     const size_t drawn =
         batch > 0 ? offsetof(io::RasterBatch, drawn) : offsetof(io::RasterBatch, listed);
-    const auto step =
-        raster(frame).many_meshlets ? RasterStep::kManyMeshlets : RasterStep::kMeshlets;
-    drawMaterials(frame, step, batch, [&] { dispatchOf(frame, batch, drawn); });
+    drawMaterials(frame, stepOfMeshlets(frame), batch, [&] { dispatchOf(frame, batch, drawn); });
 }
 
 void recordRasterBlocks(const FrameContext& frame, uint32_t batch) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterBlocks);
-    drawMaterials(frame, RasterStep::kBlocks, batch, [&] { dispatchOthers(frame, batch); });
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd,
+                               passName(frame, pass::kRasterBlocks));
+    const auto step = keepsLayers(frame) ? RasterStep::kPeeledBlocks : RasterStep::kBlocks;
+    drawMaterials(frame, step, batch, [&] { dispatchOthers(frame, batch); });
 }
 
 void recordRasterFar(const FrameContext& frame, uint32_t batch) {
@@ -122,8 +137,18 @@ void recordRasterHidden(const FrameContext& frame, uint32_t batch) {
 void recordRasterUnpack(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kRasterUnpack);
     bindVisibilityCompute(frame, frame.visibility->pipelines.compute(RasterStep::kUnpack));
-    const auto& size = frame.drawn();
-    frame.slot.cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
+    dispatchOver(frame.slot.cmd, {{}, {frame.drawn().width_px, frame.drawn().height_px}});
+}
+
+void recordLayerTiles(const FrameContext& frame,
+                      const vk::Rect2D& region,
+                      CoveredRows rows,
+                      bool nearest_depth) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransmissionDepth);
+    const auto step = nearest_depth ? RasterStep::kLayerTilesDepth : RasterStep::kLayerTiles;
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(step));
+    pushVisibilityWords(frame, {rows.first, rows.end});
+    dispatchOver(frame.slot.cmd, region);
 }
 
 void recordDepthOut(const FrameContext& frame) {

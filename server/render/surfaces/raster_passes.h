@@ -1,5 +1,6 @@
 // Triangle ids rastered in compute: what recordCompact and recordVisibility do elsewhere. No
-// barrier is here.
+// barrier is here. Of surfaces that transmit light they keep several layers of a pixel, and all are
+// parts of the pass that finds those.
 #pragma once
 
 #include "render/frame/frame_context.h"
@@ -20,7 +21,18 @@ void recordRasterBlocks(const FrameContext& frame, uint32_t batch);
 // Reads words; writes the farthest depths.
 void recordRasterFar(const FrameContext& frame, uint32_t batch);
 void recordRasterUnpack(const FrameContext& frame); // reads words; writes depth and ids
-void recordRasterSpoil(const FrameContext& frame);  // for tests: overwrites words
+// Of several layers: drops those that are hidden and lists tiles of the others. Reads words of some
+// rows, outside of which there is nothing, and solid depth; writes words, tiles and, where asked
+// for, the depth of the nearest layers.
+struct CoveredRows {
+    uint32_t first = 0;
+    uint32_t end = 0;
+};
+void recordLayerTiles(const FrameContext& frame,
+                      const vk::Rect2D& region,
+                      CoveredRows rows,
+                      bool nearest_depth);
+void recordRasterSpoil(const FrameContext& frame); // for tests: overwrites words
 
 // Depth to where the rasteriser tests it, in two copies by way of the words' buffer.
 void recordDepthOut(const FrameContext& frame); // reads depth

@@ -8,12 +8,17 @@
 
 namespace froxel::render {
 
+[[nodiscard]] inline vk::DescriptorSet visibilitySet(const FrameContext& frame) {
+    return frame.visibility->surfaces == Surfaces::kSolid
+               ? frame.slot.stored.get<VisibilityFrame>().set()
+               : frame.slot.stored.get<TransmissiveFrame>().set();
+}
+
 // The pipeline with sets 0 to 2: frame, screen, visibility.
 inline void bindVisibilityCompute(const FrameContext& frame, vk::Pipeline pipeline) {
     const auto& cmd = frame.slot.cmd;
     cmd.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
-    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
-                             frame.slot.stored.get<VisibilityFrame>().set()};
+    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set, visibilitySet(frame)};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
                            frame.visibility->pipelines.computeLayout(), 0, sets, {});
 }
@@ -21,6 +26,15 @@ inline void bindVisibilityCompute(const FrameContext& frame, vk::Pipeline pipeli
 inline void pushVisibilityWords(const FrameContext& frame, const std::array<uint32_t, 2>& words) {
     frame.slot.cmd.pushConstants<uint32_t>(frame.visibility->pipelines.computeLayout(),
                                            vk::ShaderStageFlagBits::eCompute, 0, words);
+}
+
+// A workgroup for each tile of a layer (shaders/lib/layer_tiles.glsl).
+inline void dispatchTiles(const FrameContext& frame, vk::Buffer tiles, uint32_t layer) {
+    if (frame.scene.shared.device.traits().is_cpu) {
+        // lavapipe 22.3 adds the base of the last dispatch, which this one sets to 0.
+        frame.slot.cmd.dispatch(0, 0, 0);
+    }
+    frame.slot.cmd.dispatchIndirect(tiles, vk::DeviceSize{4} * layer * sizeof(uint32_t));
 }
 
 // A culling pass over all placed meshlets; culls: not of all.

@@ -20,43 +20,60 @@ uint32_t depthFlag(const FrameContext& frame) {
     return frame.plan.geometry == SolidGeometry::kComputeIds ? io::kOutputDepth : 0U;
 }
 
-void shade(const FrameContext& frame,
-           const vk::Rect2D& region,
-           vk::DescriptorSet textures,
-           const std::array<uint32_t, 2>& words) {
-    frame.slot.cmd.bindDescriptorSets(Point::eCompute, frame.visibility->pipelines.computeLayout(),
-                                      3, textures, {});
+// What a pass makes of ids.
+struct Resolving {
+    const char* name = "";
+    uint32_t flags = 0;
+    uint32_t last_flag = 0;        // of its last dispatch, too
+    vk::DescriptorSet behind = {}; // null: it sees nothing through surfaces
+    vk::Buffer tiles = {};         // of its layer alone; null: all of the region
+    uint32_t layer = 0;
+};
+
+void dispatchResolve(const FrameContext& frame,
+                     const vk::Rect2D& region,
+                     const Resolving& as,
+                     vk::DescriptorSet textures,
+                     const std::array<uint32_t, 2>& words) {
+    const auto& cmd = frame.slot.cmd;
+    const auto& pipelines = frame.visibility->pipelines;
+    if (as.behind) {
+        const std::array sets = {textures, as.behind};
+        cmd.bindDescriptorSets(Point::eCompute, pipelines.transmissionLayout(), 3, sets, {});
+    } else {
+        cmd.bindDescriptorSets(Point::eCompute, pipelines.computeLayout(), 3, textures, {});
+    }
     pushVisibilityWords(frame, words);
-    dispatchOver(frame.slot.cmd, region);
+    if (as.tiles) {
+        dispatchTiles(frame, as.tiles, as.layer);
+    } else {
+        dispatchOver(cmd, region);
+    }
 }
 
 // A pipeline over every pixel: once with all textures, or once for each material. find() gives it.
 template <class Find>
-void resolve(const FrameContext& frame,
-             const vk::Rect2D& region,
-             const char* name,
-             uint32_t last_flag,
-             uint32_t flags,
-             Find find) {
+void resolve(const FrameContext& frame, const vk::Rect2D& region, const Resolving& as, Find find) {
     const auto& scene = *frame.visibility;
     const size_t used = frame.scene.shared.variants.firstUses();
     const vk::Pipeline pipeline = find();
     if (scene.pipelines.bindless()) {
-        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, name);
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, as.name);
         bindVisibilityCompute(frame, pipeline);
-        shade(frame, region, scene.textureSet(), {io::kAnyMaterial, last_flag | flags});
+        dispatchResolve(frame, region, as, scene.textureSet(),
+                        {io::kAnyMaterial, as.last_flag | as.flags});
         return;
     }
     const bool is_new = frame.scene.shared.variants.firstUses() > used;
     inShares(
         frame, scene.materials_in_use, [=](uint32_t) { return is_new; },
         [&](std::span<const uint32_t> materials, bool) {
-            const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, name);
+            const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, as.name);
             bindVisibilityCompute(frame, pipeline);
             for (const uint32_t material : materials) {
                 const bool last = material == scene.materials_in_use.back();
-                shade(frame, region, frame.scene.materialSet(material),
-                      {material, (last ? last_flag : 0U) | flags});
+                dispatchResolve(frame, region, as, frame.scene.materialSet(material),
+                                {material, (last ? as.last_flag : 0U) | as.flags});
             }
         });
 }
@@ -72,8 +89,7 @@ void bindGeometry(const FrameContext& frame) {
     cmd.bindIndexBuffer(*scene.index_buffer.handle, 0, vk::IndexType::eUint32);
     const auto layout = frame.visibility->pipelines.rasterLayout();
     cmd.bindDescriptorSets(Point::eGraphics, layout, 0, *frame.slot.frame_set, {});
-    cmd.bindDescriptorSets(Point::eGraphics, layout, 2,
-                           frame.slot.stored.get<VisibilityFrame>().set(), {});
+    cmd.bindDescriptorSets(Point::eGraphics, layout, 2, visibilitySet(frame), {});
 }
 
 void drawGroup(const FrameContext& frame, uint32_t index) {
@@ -133,7 +149,7 @@ void recordVisibility(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordVisibilityGbuffer(const FrameContext& frame, const vk::Rect2D& region) {
-    resolve(frame, region, pass::kResolve, io::kResolveLast, 0, [&] {
+    resolve(frame, region, {.name = pass::kResolve, .last_flag = io::kResolveLast}, [&] {
         return frame.visibility->pipelines.gbuffer(
             {frame.visibility->material_flags, 0,
              frame.plan.gbuffer_output_flags | depthFlag(frame)});
@@ -144,16 +160,36 @@ void recordVisibilityShade(const FrameContext& frame,
                            const vk::Rect2D& region,
                            uint32_t output_flags) {
     const uint32_t reused = reusesSurfaces(frame.plan) ? io::kResolveReused : 0U;
-    resolve(frame, region, pass::kShade, io::kResolveLast, reused, [&] {
+    resolve(frame, region, {pass::kShade, reused, io::kResolveLast}, [&] {
         return frame.visibility->pipelines.shade(
             {frame.visibility->material_flags & ~frame.plan.forward_unused_material_flags,
              frame.plan.lighting_light_flags, output_flags | depthFlag(frame)});
     });
 }
 
+void recordVisibilityTransmission(const FrameContext& frame,
+                                  const vk::Rect2D& region,
+                                  vk::DescriptorSet behind,
+                                  uint32_t layer,
+                                  vk::Buffer tiles) {
+    const uint32_t which = layer << io::kResolveLayerShift | (tiles ? io::kResolveTiles : 0U);
+    const Resolving as{.name = pass::kTransmission,
+                       .flags = which,
+                       .behind = behind,
+                       .tiles = tiles,
+                       .layer = layer};
+    resolve(frame, region, as, [&] {
+        const auto& plan = frame.plan;
+        return frame.visibility->pipelines.shadeTransmission(
+            {frame.visibility->material_flags & ~plan.forward_unused_material_flags,
+             plan.lighting_light_flags,
+             plan.blended_output_flags & ~io::kOutputBeforeTransmissive});
+    });
+}
+
 void recordVisibilityLayers(const FrameContext& frame, const vk::Rect2D& region) {
     // Depths are those of planes since the G-buffer was filled.
-    resolve(frame, region, pass::kLayers, 0, io::kResolveLayers | io::kResolveReused, [&] {
+    resolve(frame, region, {pass::kLayers, io::kResolveLayers | io::kResolveReused}, [&] {
         return frame.visibility->pipelines.shade({frame.visibility->material_flags,
                                                   frame.plan.lighting_light_flags,
                                                   io::kOutputRadiance});

@@ -18,6 +18,15 @@ void recordVisibilityGbuffer(const FrameContext& frame,
 void recordVisibilityShade(const FrameContext& frame,
                            const vk::Rect2D& region,
                            uint32_t output_flags);
+// Of surfaces that transmit light, whose layers were rastered in compute: one of them, over the
+// picture. Reads words, the picture behind; writes radiance. behind: with the layout of
+// Pipelines::transmissionSetLayout(). tiles: of layers, where all of it is to be drawn; else none.
+
+void recordVisibilityTransmission(const FrameContext& frame,
+                                  const vk::Rect2D& region,
+                                  vk::DescriptorSet behind,
+                                  uint32_t layer,
+                                  vk::Buffer tiles);
 // Of surfaces with layers, over what lighting left of them.
 void recordVisibilityLayers(const FrameContext& frame,
                             const vk::Rect2D& region); // reads depth, ids; writes radiance

@@ -3,7 +3,9 @@
 #include "interface/gbuffer_io.h"
 #include "render/frame/frame_facts.h"
 #include "render/frame/prepass_choice.h"
+#include "render/frame/view_targets.h"
 #include "render/steps/order.h"
+#include "render/steps/transmission_targets.h"
 #include "render/steps/view_steps.h"
 
 #include <algorithm>
@@ -75,6 +77,21 @@ bool HostWork::layersVisible() const {
                : std::ranges::any_of(culling_.draws().solid, has, &DrawGroup::material_flags);
 }
 
+bool HostWork::transmissiveByIds() const {
+    const auto& settings = inputs_.settings;
+    const vk::DeviceSize most_words = kWordBytes * mostLayers(settings) * settings.size.width_px *
+                                      vk::DeviceSize{settings.size.height_px};
+    if (culling_.geometry() != SolidGeometry::kComputeIds ||
+        culling_.draws().transmissive.groups.empty() ||
+        most_words > scene_.shared.device.limits().maxStorageBufferRange) {
+        return false;
+    }
+    MaterialSet& materials = *pose_.materialSet();
+    const Detail detail = scene_.detailOf(settings.geometry_error_px);
+    return materials.visibilityUnusable(detail, Surfaces::kTransmissive).empty() &&
+           materials.visibility(detail, Surfaces::kTransmissive).compute_unusable.empty();
+}
+
 uint32_t HostWork::lightFacts() const {
     const auto& traits = scene_.shared.device.traits();
     const auto& lights = light_work_.lights();
@@ -107,6 +124,7 @@ FrameFacts HostWork::facts() const {
             .layers_visible = layersVisible(),
             .transparent_visible = !culling_.draws().transparent.groups.empty(),
             .transmissive_visible = !culling_.draws().transmissive.groups.empty(),
+            .transmissive_by_ids = transmissiveByIds(),
             .unlit_solid = needs.unlit,
             .compute_batches = traits.subgroup_size > 1,
             // Elsewhere a subgroup of fragments may lack some of its invocations at any time.

@@ -93,6 +93,7 @@ class HostWork {
     [[nodiscard]] uint32_t lightFacts() const;
     [[nodiscard]] bool prepassPays() const;
     [[nodiscard]] bool layersVisible() const; // of solid surfaces
+    [[nodiscard]] bool transmissiveByIds() const;
     void buildUniforms(const FramePlan& plan);
     void buildDebug(const FramePlan& plan);
 

@@ -119,6 +119,23 @@ TEST(FramePlan, TransmissiveSurfaceInView_IsDrawnBetweenBlendedOnes) {
     EXPECT_EQ(blended.blended_output_flags, 0U);
 }
 
+// Ids of its layers are rastered in compute only where lights are added up there, too.
+TEST(FramePlan, Transmission_IsDrawnByIdsWhereLightsAreInCompute) {
+    FrameFacts facts = kLit;
+    facts.geometry = SolidGeometry::kComputeIds;
+    facts.transmissive_visible = true;
+    const auto way = [&](settings::LightingStage stage) {
+        settings::ViewSettings settings;
+        settings.renderer = Renderer::kClusteredDeferred;
+        settings.lighting = stage;
+        return planOf(settings, facts).find(kTransmissionStep)->way;
+    };
+    EXPECT_EQ(way(settings::LightingStage::kCompute), 0U);
+    facts.transmissive_by_ids = true;
+    EXPECT_NE(way(settings::LightingStage::kCompute), 0U);
+    EXPECT_EQ(way(settings::LightingStage::kFragment), 0U);
+}
+
 TEST(FramePlan, Transmission_PeelsAsManyLayersAsBlendedOnesAre) {
     FrameFacts facts = kLit;
     facts.transmissive_visible = true;
