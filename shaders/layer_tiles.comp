@@ -20,11 +20,16 @@ layout(local_size_x = kScreenGroup, local_size_y = kScreenGroup) in;
 layout(set = 2, binding = 19) uniform writeonly image2D depth_store;
 #endif
 
+#ifdef FROXEL_DEPTH
 // In other rows there is nothing, and words are not cleared.
 layout(push_constant) uniform RowsBlock {
     uint first_row;
     uint end_row;
 };
+bool hasWords(uvec2 pixel) { return pixel.y >= first_row && pixel.y < end_row; }
+#else
+bool hasWords(uvec2 pixel) { return true; }
+#endif
 
 shared uint tile_layers; // a bit for each that has pixels
 
@@ -59,9 +64,10 @@ void main() {
     barrier();
     if (insideScreen(pixel)) {
         float nearest = 0.0;
-        if (pixel.y >= first_row && pixel.y < end_row) {
+        if (hasWords(pixel)) {
             atomicOr(tile_layers, keepLayers(pixel, nearest));
         }
+
 #ifdef FROXEL_DEPTH
         imageStore(depth_store, ivec2(pixel), vec4(nearest));
 #endif

@@ -45,6 +45,32 @@ uint triangleOfBlock(uint64_t block, uint count) {
     return first;
 }
 
+// An invocation's of a row of a block, whose first pixel is `first`; lane: in the block.
+#ifdef FROXEL_PEELED
+void drawPixels(Edges edges, uvec2 first, uvec2 lane, uvec2 size, uint id) {
+    uint64_t burst[kBurst];
+    [[unroll]] for (uint k = 0; k < kBurst; ++k) {
+        uvec2 at = lane + uvec2(k * kLaneSide, 0);
+        ivec3 inside = edges.inside + edges.step_x * int(at.x) + edges.step_y * int(at.y);
+        burst[k] = 0;
+        if (isInside(inside) && all(lessThan(first + at, size))) {
+            burst[k] = wordAt(first + at, depthAt(inside, edges.rest, edges.scale), id);
+        }
+    }
+    keepWords(first + lane, kLaneSide, burst);
+}
+#else
+void drawPixels(Edges edges, uvec2 first, uvec2 lane, uvec2 size, uint id) {
+    for (uint x = 0; x < kRasterBlock; x += kLaneSide) {
+        uvec2 at = lane + uvec2(x, 0);
+        ivec3 inside = edges.inside + edges.step_x * int(at.x) + edges.step_y * int(at.y);
+        if (isInside(inside) && all(lessThan(first + at, size))) {
+            drawPixel(first + at, depthAt(inside, edges.rest, edges.scale), id);
+        }
+    }
+}
+#endif
+
 void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, uint id,
                uvec2 first) {
     bool both_sides = (item.flags & kMaterialDoubleSided) != 0;
@@ -61,20 +87,7 @@ void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, ui
     uvec2 size = uvec2(frame.camera.width_px, frame.camera.height_px);
     uvec2 lane = uvec2(gl_LocalInvocationIndex % kLaneSide, gl_LocalInvocationIndex / kLaneSide);
     for (uint y = 0; y < kRasterBlock; y += kLaneSide) {
-        for (uint x = 0; x < kRasterBlock; x += kLaneSide * kBurst) {
-            uvec2 at = lane + uvec2(x, y);
-            uint64_t burst[kBurst];
-            [[unroll]] for (uint k = 0; k < kBurst; ++k) {
-                uvec2 pixel = at + uvec2(k * kLaneSide, 0);
-                ivec3 inside =
-                    edges.inside + edges.step_x * int(pixel.x) + edges.step_y * int(pixel.y);
-                burst[k] = 0;
-                if (isInside(inside) && all(lessThan(first + pixel, size))) {
-                    burst[k] = wordAt(first + pixel, depthAt(inside, edges.rest, edges.scale), id);
-                }
-            }
-            keepWords(first + at, kLaneSide, burst);
-        }
+        drawPixels(edges, first, lane + uvec2(0, y), size, id);
     }
 }
 

@@ -131,24 +131,20 @@ float before(int inside, int step_x) {
     return inside < 0 && step_x > 0 ? float(-inside) / float(step_x) * 0.999999 : 0.0;
 }
 
-void drawRow(SmallTriangle t, uint row, uint first_id) {
-    ivec3 inside = t.edges.inside + t.edges.step_y * int(row);
-    uint first =
-        uint(min(max(max(before(inside.x, t.edges.step_x.x), before(inside.y, t.edges.step_x.y)),
-                     before(inside.z, t.edges.step_x.z)),
-                 float(kRasterSmall)));
-    inside += t.edges.step_x * int(first);
+// The rest of a row of the triangle's box, from a pixel on; inside: there.
+#ifdef FROXEL_PEELED
+void drawPixels(SmallTriangle t, uvec2 from, ivec3 inside, uint id) {
     bool entered = false;
-    for (uint x = first; x < t.width; x += kBurst) {
-        uvec2 pixel = t.first + uvec2(x, row);
+    for (uint x = from.x; x < t.width; x += kBurst) {
+        uvec2 pixel = t.first + uvec2(x, from.y);
         uint64_t burst[kBurst];
         bool any = false;
         [[unroll]] for (uint k = 0; k < kBurst; ++k) {
             burst[k] = 0;
-            if (isInside(inside) && (k == 0u || x + k < t.width)) {
+            if (isInside(inside) && x + k < t.width) {
                 any = true;
-                burst[k] = wordAt(pixel + uvec2(k, 0), depthAt(inside, t.edges.rest, t.edges.scale),
-                                  first_id | t.triangle);
+                burst[k] =
+                    wordAt(pixel + uvec2(k, 0), depthAt(inside, t.edges.rest, t.edges.scale), id);
             }
             inside += t.edges.step_x;
         }
@@ -159,6 +155,30 @@ void drawRow(SmallTriangle t, uint row, uint first_id) {
             break;
         }
     }
+}
+#else
+void drawPixels(SmallTriangle t, uvec2 from, ivec3 inside, uint id) {
+    bool entered = false;
+    for (uint x = from.x; x < t.width; ++x) {
+        if (isInside(inside)) {
+            entered = true;
+            drawPixel(t.first + uvec2(x, from.y), depthAt(inside, t.edges.rest, t.edges.scale), id);
+        } else if (entered) {
+            break;
+        }
+        inside += t.edges.step_x;
+    }
+}
+#endif
+
+void drawRow(SmallTriangle t, uint row, uint first_id) {
+    ivec3 inside = t.edges.inside + t.edges.step_y * int(row);
+    uint first =
+        uint(min(max(max(before(inside.x, t.edges.step_x.x), before(inside.y, t.edges.step_x.y)),
+                     before(inside.z, t.edges.step_x.z)),
+                 float(kRasterSmall)));
+    inside += t.edges.step_x * int(first);
+    drawPixels(t, uvec2(first, row), inside, first_id | t.triangle);
 }
 
 void projectVertices(Meshlet m, VisibleItem item, InstanceView view) {

@@ -14,12 +14,35 @@ bool drawsItem(VisibleItem item) {
 
 uint placeOf(uvec2 pixel) { return pixel.y * frame.camera.width_px + pixel.x; }
 
+uint64_t wordOf(uint depth_bits, uint id) { return (uint64_t(depth_bits) << 32) | uint64_t(id); }
+
+// Whether the triangle's material shows it there. place: of the word that it must outdo.
+bool isShown(uvec2 pixel, uint place, uint depth_bits, uint id) {
+    if (kMasked) { // a look spares the textures; without them it costs more than an atomic
+        // Depths only grow, so a stale one is no harm. Not the whole word: its halves may be of
+        // two.
+        if (uint(words[place] >> 32) > depth_bits) {
+            return false;
+        }
+        bool front;
+        VertexData v = fetchSurface(fetchTriangle(id), pixel, front);
+        return !maskedOut(baseColor(v));
+    }
+    return true;
+}
+
 #ifdef FROXEL_PEELED
 // Pixels that an invocation keeps at a time: each waits for what its word was before.
 const uint kBurst = 4u;
 
 uint pixelCount() { return frame.camera.width_px * frame.camera.height_px; }
-uint lastPlaceOf(uvec2 pixel) { return placeOf(pixel) + (layerCount() - 1u) * pixelCount(); }
+
+// Of a triangle at a pixel; 0: there is nothing of it.
+uint64_t wordAt(uvec2 pixel, float depth, uint id) {
+    uint bits = floatBitsToUint(depth);
+    uint last = placeOf(pixel) + (layerCount() - 1u) * pixelCount();
+    return depth > 0.0 && isShown(pixel, last, bits, id) ? wordOf(bits, id) : uint64_t(0);
+}
 
 // A nearer layer takes the place of a farther one, which goes on to the next: whatever the order of
 // the triangles, the nearest remain (Liu et al. 2010, "FreePipe", multi-depth peeling). Triangles
@@ -45,34 +68,11 @@ void keepWords(uvec2 pixel, uint apart, uint64_t burst[kBurst]) {
     }
 }
 #else
-const uint kBurst = 1u;
-
-uint lastPlaceOf(uvec2 pixel) { return placeOf(pixel); }
-
-void keepWords(uvec2 pixel, uint apart, uint64_t burst[kBurst]) {
-    if (burst[0] != 0) {
-        atomicMax(words[placeOf(pixel)], burst[0]);
+void drawPixel(uvec2 pixel, float depth, uint id) {
+    uint at = placeOf(pixel);
+    uint bits = floatBitsToUint(depth);
+    if (depth > 0.0 && isShown(pixel, at, bits, id)) {
+        atomicMax(words[at], wordOf(bits, id));
     }
 }
 #endif
-
-// Of a triangle at a pixel; 0: there is nothing of it.
-uint64_t wordAt(uvec2 pixel, float depth, uint id) {
-    uint bits = floatBitsToUint(depth);
-    if (!(depth > 0.0)) {
-        return 0;
-    }
-    if (kMasked) { // a look spares the textures; without them it costs more than an atomic
-        // Depths only grow, so a stale one is no harm. Not the whole word: its halves may be of
-        // two.
-        if (uint(words[lastPlaceOf(pixel)] >> 32) > bits) {
-            return 0;
-        }
-        bool front;
-        VertexData v = fetchSurface(fetchTriangle(id), pixel, front);
-        if (maskedOut(baseColor(v))) {
-            return 0;
-        }
-    }
-    return (uint64_t(bits) << 32) | uint64_t(id);
-}

@@ -98,12 +98,8 @@ class TransmissionDepth final : public Step {
         return timeOver(cost, drawn_);
     }
     // The first and the end of those of workgroups that surfaces cover.
-    [[nodiscard]] CoveredRows coveredRows() const {
-        const auto first = static_cast<uint32_t>(covered_.offset.y);
-        const uint32_t end = first + screenGroups(covered_.extent.height) * io::kScreenGroup;
-        return {first, std::min(end, drawn_.height_px)};
-    }
     void recordIds(const FrameContext& frame) const;
+    void recordHeads(const FrameContext& frame) const;
     void recordClear(const FrameContext& frame) const;
     static void recordPart(const FrameContext& frame, const vk::Rect2D& part, uint32_t layer) {
         if (part.extent.width == 0) {
@@ -164,20 +160,27 @@ std::array<uint32_t, io::kTileHeadWords> emptyTileHeads() {
     return words;
 }
 
-void TransmissionDepth::recordClear(const FrameContext& frame) const {
+void TransmissionDepth::recordHeads(const FrameContext& frame) const {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransmissionDepth);
-    const auto [first, end] = coveredRows();
-    const vk::DeviceSize row = kWordBytes * drawn_.width_px;
-    for (uint32_t layer = 0; layer < shape_.layer_count; ++layer) {
-        const uint32_t before = layer * drawn_.height_px;
-        frame.slot.cmd.fillBuffer(*targets_->words.handle, (before + first) * row,
-                                  (end - first) * row, 0);
-    }
-    frame.slot.cmd.updateBuffer<uint32_t>(*targets_->tiles.handle, 0, emptyTileHeads());
-    io::RasterBatch batch = visible_->computeRaster().empty_batches.front();
+    const ComputeRaster& raster = visible_->computeRaster();
+    io::RasterBatch batch = raster.empty_batches.front();
     batch.layer_count = shape_.layer_count;
-    frame.slot.cmd.updateBuffer<io::RasterBatch>(*visible_->computeRaster().batches.handle, 0,
-                                                 batch);
+    frame.slot.cmd.updateBuffer<io::RasterBatch>(*raster.batches.handle, 0, batch);
+    frame.slot.cmd.updateBuffer<uint32_t>(*targets_->tiles.handle, 0, emptyTileHeads());
+}
+
+// Words of all rows of workgroups that surfaces cover.
+void TransmissionDepth::recordClear(const FrameContext& frame) const {
+    const auto& cmd = frame.slot.cmd;
+    const gpu::PassScope scope(frame.slot.timestamps, cmd, pass::kTransmissionDepth);
+    const auto first = static_cast<uint32_t>(covered_.offset.y);
+    const uint32_t end =
+        std::min(first + screenGroups(covered_.extent.height) * io::kScreenGroup, drawn_.height_px);
+    const vk::DeviceSize row = kWordBytes * drawn_.width_px;
+    for (uint32_t layer = 0; end > first && layer < shape_.layer_count; ++layer) {
+        const uint32_t before = layer * drawn_.height_px;
+        cmd.fillBuffer(*targets_->words.handle, (before + first) * row, (end - first) * row, 0);
+    }
 }
 
 void TransmissionDepth::recordIds(const FrameContext& frame) const {
@@ -185,15 +188,18 @@ void TransmissionDepth::recordIds(const FrameContext& frame) const {
     of_layers.visibility = visible_;
     const auto& cmd = frame.slot.cmd;
     frame.pieces.add(idsCost(frame.costs));
-    recordClear(frame);
+    recordHeads(frame);
     computeAfterTransfer(cmd);
+    recordClear(frame); // while meshlets are culled
     recordRasterCull(of_layers, (plan().way & kCullsLayers) != 0);
+    computeAfterTransfer(cmd);
     nextIndirectPass(cmd);
     recordRasterMeshlets(of_layers, 0);
     nextComputePass(cmd);
     recordRasterBlocks(of_layers, 0);
     nextComputePass(cmd);
-    recordLayerTiles(of_layers, clearedBy(0), coveredRows(), shape_.nearest_depth);
+    shape_.nearest_depth ? recordLayerTilesAndDepth(of_layers, covered_)
+                         : recordLayerTiles(of_layers, covered_);
 }
 
 std::optional<StepPlan> planOfDepth(const PlanInputs& inputs) {

@@ -140,15 +140,18 @@ void recordRasterUnpack(const FrameContext& frame) {
     dispatchOver(frame.slot.cmd, {{}, {frame.drawn().width_px, frame.drawn().height_px}});
 }
 
-void recordLayerTiles(const FrameContext& frame,
-                      const vk::Rect2D& region,
-                      CoveredRows rows,
-                      bool nearest_depth) {
+void recordLayerTiles(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransmissionDepth);
-    const auto step = nearest_depth ? RasterStep::kLayerTilesDepth : RasterStep::kLayerTiles;
-    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(step));
-    pushVisibilityWords(frame, {rows.first, rows.end});
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(RasterStep::kLayerTiles));
     dispatchOver(frame.slot.cmd, region);
+}
+
+void recordLayerTilesAndDepth(const FrameContext& frame, const vk::Rect2D& region) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, pass::kTransmissionDepth);
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(RasterStep::kLayerTilesDepth));
+    const auto first = static_cast<uint32_t>(region.offset.y);
+    pushVisibilityWords(frame, {first, first + region.extent.height});
+    dispatchOver(frame.slot.cmd, {{}, {frame.drawn().width_px, frame.drawn().height_px}});
 }
 
 void recordDepthOut(const FrameContext& frame) {

@@ -21,17 +21,12 @@ void recordRasterBlocks(const FrameContext& frame, uint32_t batch);
 // Reads words; writes the farthest depths.
 void recordRasterFar(const FrameContext& frame, uint32_t batch);
 void recordRasterUnpack(const FrameContext& frame); // reads words; writes depth and ids
-// Of several layers: drops those that are hidden and lists tiles of the others. Reads words of some
-// rows, outside of which there is nothing, and solid depth; writes words, tiles and, where asked
-// for, the depth of the nearest layers.
-struct CoveredRows {
-    uint32_t first = 0;
-    uint32_t end = 0;
-};
-void recordLayerTiles(const FrameContext& frame,
-                      const vk::Rect2D& region,
-                      CoveredRows rows,
-                      bool nearest_depth);
+// Of several layers: drops those that are hidden and lists tiles of the others. Reads words and
+// solid depth of a region; writes words and tiles.
+void recordLayerTiles(const FrameContext& frame, const vk::Rect2D& region);
+// And writes the depth of the nearest layers, everywhere: there is none outside of the region's
+// rows.
+void recordLayerTilesAndDepth(const FrameContext& frame, const vk::Rect2D& region);
 void recordRasterSpoil(const FrameContext& frame); // for tests: overwrites words
 
 // Depth to where the rasteriser tests it, in two copies by way of the words' buffer.
