@@ -29,6 +29,11 @@ FROXEL_CONST uint kMaterialAnisotropy = 1U << 11;          // highlights of two 
 FROXEL_CONST uint kMaterialFilm = 1U << 12;                // iridescence
 FROXEL_CONST uint kMaterialDiffuseTransmission = 1U << 13; // light comes through it, scattered
 FROXEL_CONST uint kMaterialTransmission = 1U << 15; // light comes through it, as through glass
+// And with that: it has a thickness; which bends colours by different angles; it blurs what is
+// behind.
+FROXEL_CONST uint kMaterialBody = 1U << 16;
+FROXEL_CONST uint kMaterialDispersion = 1U << 17;
+FROXEL_CONST uint kMaterialFrosted = 1U << 18;
 // Of the device, not of a material: lib/fragment_material.glsl takes gradients by itself.
 FROXEL_CONST uint kMaterialGradients = 1U << 14;
 // Layers, of which lights add up what each reflects; and what else the G-buffer has no room for.

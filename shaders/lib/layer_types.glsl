@@ -23,6 +23,10 @@ struct Transmission {
 // The shaders of FROXEL_TRANSMISSION alone draw such surfaces.
 #ifdef FROXEL_TRANSMISSION
 bool hasTransmission() { return hasMaterial(kMaterialTransmission); }
+bool hasBody() { return hasMaterial(kMaterialBody); }
+bool hasDispersion() { return hasMaterial(kMaterialDispersion); }
+bool isFrosted() { return hasMaterial(kMaterialFrosted); }
+
 #else
 bool hasTransmission() { return false; }
 #endif

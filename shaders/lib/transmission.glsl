@@ -29,7 +29,7 @@ vec3 smoothLevel(vec2 uv, float level) {
 // at: in pixels, whose centres are at halves.
 vec3 behindAt(vec2 at, float level) {
     vec2 uv = at / vec2(frame.camera.width_px, frame.camera.height_px);
-    if (level <= 0.0) {
+    if (!isFrosted() || level <= 0.0) {
         return textureLod(behind_image, uv, 0.0).rgb;
     }
     float most = float(textureQueryLevels(behind_image) - 1);
@@ -65,7 +65,7 @@ vec3 seenAlong(vec3 way, Surface s, vec2 own, float depth, float level) {
 vec3 seenBent(Surface s, Transmission t, mat3 object_from_view, vec3 way, vec2 own, float depth,
               float level) {
     vec3 seen = seenAlong(way, s, own, depth, level);
-    if (t.dispersion != 0.0) {
+    if (hasDispersion() && t.dispersion != 0.0) {
         float spread = (t.ior - 1.0) * 0.025 * t.dispersion;
         vec3 red = wayThrough(s, object_from_view, max(t.ior - spread, 1.0), t.thickness);
         vec3 blue = wayThrough(s, object_from_view, t.ior + spread, t.thickness);
@@ -80,16 +80,17 @@ vec3 seenBent(Surface s, Transmission t, mat3 object_from_view, vec3 way, vec2 o
 vec3 seenBehind(Surface s, Transmission t, uvec2 pixel, float depth, mat3 object_from_view,
                 out vec3 left) {
     left = vec3(1.0);
-    float level = log2(float(frame.camera.width_px)) * t.roughness;
+    float level = isFrosted() ? log2(float(frame.camera.width_px)) * t.roughness : 0.0;
     vec2 own = vec2(pixel) + 0.5;
-    if (t.thickness > 0.0) {
+    if (hasBody() && t.thickness > 0.0) {
         vec3 way = wayThrough(s, object_from_view, t.ior, t.thickness);
         if (t.attenuation_m > 0.0) {
             left = attenuated(t.attenuation_color, length(way) / t.attenuation_m);
         }
         return seenBent(s, t, object_from_view, way, own, depth, level);
     }
-    return level > 0.0 ? behindAt(own, level) : texelFetch(behind_image, ivec2(pixel), 0).rgb;
+    return isFrosted() && level > 0.0 ? behindAt(own, level)
+                                      : texelFetch(behind_image, ivec2(pixel), 0).rgb;
 }
 
 // What arrives at the surface from behind and is left after the body, without the fog before the

@@ -42,15 +42,15 @@ inline constexpr MaterialFlags kAnyTexture = ~MaterialFlags{0} << 32U;
 inline constexpr MaterialFlags kSpecularFlags =
     MaterialFlags{io::kMaterialSpecular | io::kMaterialGlossiness} |
     textureFlag(io::specular_slot) | textureFlag(io::specular_color_slot);
+// Light that passes as through glass, and what belongs to it.
+inline constexpr MaterialFlags kTransmissionFlags =
+    MaterialFlags{io::kMaterialTransmission | io::kMaterialBody | io::kMaterialDispersion |
+                  io::kMaterialFrosted} |
+    textureFlag(io::transmission_slot) | textureFlag(io::thickness_slot);
 // Layers, and what belongs to them.
 inline constexpr MaterialFlags kLayerFlags =
-    MaterialFlags{io::kMaterialLayers} |
+    MaterialFlags{io::kMaterialLayers} | kTransmissionFlags |
     (textureFlag(io::kMaterialSlots) - textureFlag(io::kSurfaceSlots));
-
-// What transmission has of these.
-inline constexpr MaterialFlags kTransmissionFlags = MaterialFlags{io::kMaterialTransmission} |
-                                                    textureFlag(io::transmission_slot) |
-                                                    textureFlag(io::thickness_slot);
 
 // Over how many surfaces lights are added up where this is: a layer is one of its own.
 [[nodiscard]] constexpr double litSurfaces(MaterialFlags flags) {

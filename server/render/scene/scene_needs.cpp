@@ -94,6 +94,11 @@ MaterialFlags materialFlags(const scene::Material& m) {
         set(m.film.strength != 0, io::kMaterialFilm);
         set(m.diffuse_transmission.strength != 0, io::kMaterialDiffuseTransmission);
         set(transmits(m), io::kMaterialTransmission);
+        set(transmits(m) && m.volume.thickness_m != 0, io::kMaterialBody);
+        set(transmits(m) && m.volume.thickness_m != 0 && m.transmission.dispersion != 0,
+            io::kMaterialDispersion);
+        set(transmits(m) && m.ior > 1 && (m.roughness != 0 || m.glossiness_texture),
+            io::kMaterialFrosted);
     }
     return flags;
 }

@@ -185,12 +185,24 @@ TEST(SceneNeeds, Transmission_IsNeitherSolidNorBlended) {
     EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], 0U) << "nothing passes";
     m.transmission.strength = 0.5F;
     const MaterialFlags own = textureFlag(io::transmission_slot) | textureFlag(io::thickness_slot) |
-                              io::kMaterialTransmission;
+                              io::kMaterialTransmission | io::kMaterialBody;
     const SceneNeeds clear = findNeeds(sceneWith(m));
     EXPECT_EQ(clear.material_flags[0], own);
     EXPECT_TRUE(clear.transmissive);
     EXPECT_FALSE(clear.blended || clear.layers || clear.wide_gbuffer) << "not in the G-buffer";
     EXPECT_EQ(litSurfaces(clear.material_flags[0]), 2) << "its other side is lit, too";
+    m.transmission.dispersion = 0.1F;
+    m.roughness = 0.2F;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0],
+              own | io::kMaterialDispersion | io::kMaterialFrosted);
+    m.ior = 1;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] & io::kMaterialFrosted, 0U)
+        << "what bends nothing blurs nothing";
+    m.volume.thickness_m = 0;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] &
+                  (io::kMaterialBody | io::kMaterialDispersion | textureFlag(io::thickness_slot)),
+              0U)
+        << "a thin wall bends nothing";
     m.metallic = 1;
     EXPECT_FALSE(findNeeds(sceneWith(m)).transmissive) << "metal stops light";
     m.metallic_roughness_texture.texture = 0;
