@@ -61,7 +61,6 @@ class VisibilityPipelines {
         kPeeledBlocks,
         kLayerTiles,
         kLayerTilesDepth
-
     };
     [[nodiscard]] vk::Pipeline compute(ComputeStep step, MaterialFlags material_flags = 0);
 

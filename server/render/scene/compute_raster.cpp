@@ -62,7 +62,6 @@ std::string ComputeRaster::unusable(const gpu::Device& device, const VisibilityS
                " invocations in a workgroup";
     }
     // What a batch hides of later ones is not known where several layers are kept.
-
     const size_t most = scene.surfaces == Surfaces::kSolid ? io::kRasterMostBatches : 1;
     if (batchesOf(scene, each) > most) {
         return "the scene has more meshlets than " + std::to_string(most) + " batches may have";

@@ -68,8 +68,8 @@ struct TransmissionLayouts {
     explicit TransmissionLayouts(const DeviceResources& shared);
 
     vk::raii::Sampler sampler; // linear, levels one by one, clamped to the edge
-    vk::raii::DescriptorSetLayout
-        level_layout; // a finer level, sampled; a coarser one, stored; tiles
+    // A finer level, sampled; a coarser one, stored; tiles of layers.
+    vk::raii::DescriptorSetLayout level_layout;
 };
 
 // One view's. Frames in flight keep theirs alive.

@@ -45,7 +45,6 @@ variant(const FrameContext& frame, GeometryPass pass, const DrawGroup& group, ui
     case GeometryPass::kTransmissionDepth:
         return {(group.material_flags & io::kMaterialMask) != 0 ? group.material_flags : 0U, 0,
                 layer > 0 ? io::kOutputBehindTransmissive : 0U};
-
     case GeometryPass::kPeelSelect:
     case GeometryPass::kPeelCount:
         return {0, 0, plan.blended_output_flags & io::kOutputBeforeTransmissive};

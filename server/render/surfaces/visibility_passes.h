@@ -21,7 +21,6 @@ void recordVisibilityShade(const FrameContext& frame,
 // Of surfaces that transmit light, whose layers were rastered in compute: one of them, over the
 // picture. Reads words, the picture behind; writes radiance. behind: with the layout of
 // Pipelines::transmissionSetLayout(). tiles: of layers, where all of it is to be drawn; else none.
-
 void recordVisibilityTransmission(const FrameContext& frame,
                                   const vk::Rect2D& region,
                                   vk::DescriptorSet behind,
