@@ -56,8 +56,10 @@ float highestLevel(const SceneResources& scene, const StepInputs& inputs) {
     float roughness = 0; // as shaders/lib/layer_types.glsl has it
     for (const DrawGroup& group : inputs.draws.transmissive.groups) {
         const io::Material& material = scene.material_uniforms[group.material];
-        roughness =
-            std::max(roughness, material.roughness * std::clamp(2 * material.ior - 2, 0.0F, 1.0F));
+        // A glossiness texture can only say that a surface is rougher.
+        const bool textured = (group.material_flags & io::kMaterialGlossiness) != 0;
+        roughness = std::max(roughness, (textured ? 1 : material.roughness) *
+                                            std::clamp(2 * material.ior - 2, 0.0F, 1.0F));
     }
     return roughness * std::log2(static_cast<float>(inputs.size.drawn.width_px));
 }
