@@ -25,7 +25,6 @@ uvec2 groupsTile() { return gl_WorkGroupID.xy; }
 
 void main() {
     uvec2 pixel = groupsTile() * kScreenGroup + gl_LocalInvocationID.xy;
-
     if (!insideScreen(pixel)) {
         return;
     }

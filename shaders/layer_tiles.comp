@@ -18,9 +18,6 @@
 layout(local_size_x = kScreenGroup, local_size_y = kScreenGroup) in;
 #ifdef FROXEL_DEPTH
 layout(set = 2, binding = 19) uniform writeonly image2D depth_store;
-#endif
-
-#ifdef FROXEL_DEPTH
 // In other rows there is nothing, and words are not cleared.
 layout(push_constant) uniform RowsBlock {
     uint first_row;
@@ -67,7 +64,6 @@ void main() {
         if (hasWords(pixel)) {
             atomicOr(tile_layers, keepLayers(pixel, nearest));
         }
-
 #ifdef FROXEL_DEPTH
         imageStore(depth_store, ivec2(pixel), vec4(nearest));
 #endif

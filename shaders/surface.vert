@@ -29,6 +29,7 @@ layout(location = 4) out vec4 tangent_view;
 #endif
 
 #ifdef FROXEL_TRANSMISSION
+#include "lib/object_from_view.glsl"
 layout(location = 5) flat out mat3 object_from_view;
 #endif
 
@@ -47,9 +48,7 @@ void main() {
     normal_view = side * vec3(dot(c0, normal_object), dot(cross(r2, r0), normal_object),
                               dot(cross(r0, r1), normal_object));
 #ifdef FROXEL_TRANSMISSION
-    float volume = dot(r0, c0);
-    // Of a flat instance nothing has a thickness.
-    object_from_view = volume != 0.0 ? mat3(c0, cross(r2, r0), cross(r0, r1)) / volume : mat3(0.0);
+    object_from_view = objectFromView(r0, r1, r2);
 #endif
 #ifdef FROXEL_UNTEXTURED
     uv0 = vec2(0.0); // nothing looks at it

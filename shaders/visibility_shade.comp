@@ -29,6 +29,7 @@ layout(local_size_x = 64) in;
 
 #ifdef FROXEL_TRANSMISSION
 #include "lib/fog.glsl"
+#include "lib/object_from_view.glsl"
 #define FROXEL_BEHIND_SET 4
 #include "lib/transmission.glsl"
 
@@ -71,7 +72,8 @@ mat3 object_from_view = mat3(0.0);
 
 void keepForLayer(VisibleTriangle t, vec4 base) {
     layer_alpha = hasMaterial(kMaterialBlend) ? clamp(base.a, 0.0, 1.0) : 1.0;
-    object_from_view = objectFromView(instances[items[t.item].instance]);
+    InstanceView view = instances[items[t.item].instance];
+    object_from_view = objectFromView(view.row0.xyz, view.row1.xyz, view.row2.xyz);
 }
 
 void storeLit(uvec2 pixel, bool covered, float depth, float distance, GbufferSample g, Surface s,

@@ -22,7 +22,6 @@ FROXEL_CONST uint kResolveLayers = 4U; // only surfaces that have layers
 // Of one that shades a layer of surfaces that transmit light: only its tiles; and from this bit on
 // its number, from the nearest.
 FROXEL_CONST uint kResolveTiles = 8U;
-
 FROXEL_CONST uint kResolveLayerShift = 8U;
 
 // Before lists of layers' tiles (lib/layer_tiles.glsl): the words of a VkDispatchIndirectCommand

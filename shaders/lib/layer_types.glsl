@@ -26,7 +26,6 @@ bool hasTransmission() { return hasMaterial(kMaterialTransmission); }
 bool hasBody() { return hasMaterial(kMaterialBody); }
 bool hasDispersion() { return hasMaterial(kMaterialDispersion); }
 bool isFrosted() { return hasMaterial(kMaterialFrosted); }
-
 #else
 bool hasTransmission() { return false; }
 #endif

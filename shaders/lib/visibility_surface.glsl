@@ -82,18 +82,6 @@ vec4 viewTangent(InstanceView view, vec4 tangent_object) {
     return tangent;
 }
 
-#ifdef FROXEL_TRANSMISSION
-// As surface.vert.
-mat3 objectFromView(InstanceView view) {
-    vec3 r0 = view.row0.xyz;
-    vec3 r1 = view.row1.xyz;
-    vec3 r2 = view.row2.xyz;
-    vec3 c0 = cross(r1, r2);
-    float volume = dot(r0, c0);
-    return volume != 0.0 ? mat3(c0, cross(r2, r0), cross(r0, r1)) / volume : mat3(0.0);
-}
-#endif
-
 // Whether the pixel looks at the triangle's front.
 bool showsFront(VisibleTriangle t, InstanceView view, uvec2 pixel) {
     vec2 ray = (vec2(pixel) + 0.5) * frame.camera.ray_scale + frame.camera.ray_offset;

@@ -36,6 +36,12 @@ vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b) {
             {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
 }
 
+RegionCost within(const RegionCost& cost, const vk::Rect2D& region) {
+    return {cost.each,
+            [cost, region](const vk::Rect2D& part) { return cost.of(common(part, region)); },
+            cost.least};
+}
+
 Seconds timeOver(const RegionCost& cost, const settings::Size& size) {
     return cost.each + std::max(cost.of({{0, 0}, extentOf(size)}), cost.least);
 }

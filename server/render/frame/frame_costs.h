@@ -49,6 +49,9 @@ struct PassEstimate {
 // What two parts of a picture have in common.
 [[nodiscard]] vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b);
 
+// Of what is only done where a part has something in common with a region.
+[[nodiscard]] RegionCost within(const RegionCost& cost, const vk::Rect2D& region);
+
 // In pixels.
 [[nodiscard]] inline double areaOf(const vk::Rect2D& region) {
     return static_cast<double>(region.extent.width) * region.extent.height;

@@ -135,7 +135,7 @@ class VisibilityFrame {
         vk::ImageView gbuffer;
         // Where compute rasters; else none.
         const ComputeRaster* raster = nullptr;
-        vk::Buffer words;
+        vk::Buffer words = {};
         vk::ImageView depth;
         vk::Buffer tiles = {}; // of layers, where several are kept; else none
     };

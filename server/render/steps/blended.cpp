@@ -164,12 +164,7 @@ class BlendedBehind final : public Step {
         return {};
     }
     [[nodiscard]] RegionCost cost(const FrameCosts& costs) const {
-        const RegionCost all = costs.layered(costs.load().draws.transparent);
-        return {all.each,
-                [all, region = covered_](const vk::Rect2D& part) {
-                    return all.of(common(part, region));
-                },
-                all.least};
+        return within(costs.layered(costs.load().draws.transparent), covered_);
     }
 
     static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {

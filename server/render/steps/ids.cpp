@@ -1,12 +1,12 @@
 // Ids of visible triangles and their depth, culled on the device, by the rasteriser or in compute.
 #include "render/frame/frame_context.h"
-#include "render/frame/posed_targets.h"
 #include "render/frame/step.h"
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/pass_names.h"
 #include "render/scene/visibility_scene.h"
 #include "render/steps/order.h"
 #include "render/surfaces/raster_passes.h"
+#include "render/surfaces/visibility_binding.h"
 #include "render/surfaces/visibility_passes.h"
 
 namespace froxel::render {
@@ -112,23 +112,18 @@ class Ids final : public Step {
 void Ids::prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) {
     auto& visible = *slot.visibility;
     const auto& targets = *slot.targets;
-    const auto& offsets = slot.offsets;
-    slot.stored.findOrMake<VisibilityFrame>(scene_.shared.device, visible)
-        .write({.resources = scene_,
-                .scene = visible,
-                .draws = in_compute_ ? nullptr : &visible.culledDraws(),
-                .vertices = vertexBuffers(scene_, slot),
-                .instances = {slot.upload.buffer(), offsets.instances,
-                              scene_.instances.size() * sizeof(io::InstanceView)},
-                .order = visible.ordered()
-                             ? vk::DescriptorBufferInfo{slot.upload.buffer(), offsets.meshlet_order,
-                                                        visible.placed.size() * sizeof(uint32_t)}
-                             : vk::DescriptorBufferInfo{.range = VK_WHOLE_SIZE},
-                .ids = *targets.ids.view,
-                .gbuffer = targets.needs.gbuffer ? *targets.gbuffer.view : *targets.ids.view,
-                .raster = in_compute_ ? &visible.computeRaster() : nullptr,
-                .words = *targets.words.handle,
-                .depth = *targets.compute_depth.view});
+    auto bindings = visibilityBindings(scene_, visible, slot);
+    bindings.draws = in_compute_ ? nullptr : &visible.culledDraws();
+    if (visible.ordered()) {
+        bindings.order = vk::DescriptorBufferInfo{slot.upload.buffer(), slot.offsets.meshlet_order,
+                                                  visible.placed.size() * sizeof(uint32_t)};
+    }
+    if (targets.needs.gbuffer) {
+        bindings.gbuffer = *targets.gbuffer.view;
+    }
+    bindings.raster = in_compute_ ? &visible.computeRaster() : nullptr;
+    bindings.words = *targets.words.handle;
+    slot.stored.findOrMake<VisibilityFrame>(scene_.shared.device, visible).write(bindings);
 }
 
 std::vector<Use> usesOfIds(const FramePlan& frame, const StepPlan& /*plan*/) {

@@ -142,10 +142,8 @@ class Transmission final : public Step {
     Result<void> build(const StepInputs& inputs, const FramePlan& /*frame*/) override {
         drawn_ = inputs.size.drawn;
         shape_ = transmissionShape(scene_, inputs, plan());
-        visible_ = byIds() ? &inputs.pose.materialSet()->visibility(
-                                 scene_.detailOf(inputs.settings.geometry_error_px),
-                                 Surfaces::kTransmissive)
-                           : nullptr;
+        visible_ = layersById(scene_, inputs, plan());
+
         const LayeredDraws& draws = inputs.draws.transmissive;
         covered_ = around(draws.parts);
         const float highest = highestLevel(scene_, inputs);
@@ -168,9 +166,8 @@ class Transmission final : public Step {
     void recordLevels(const FrameContext& frame, vk::Rect2D region) const;
     // Whether a part is all that layers cover, so that their tiles are all there is to do.
     [[nodiscard]] bool inTiles(const vk::Rect2D& part) const {
-        const uint32_t tiles = screenGroups(drawn_.width_px) * screenGroups(drawn_.height_px);
         return byIds() && part == covered_ &&
-               tiles <= scene_.shared.device.limits().maxComputeWorkGroupCount[0];
+               layerTileCount(drawn_) <= scene_.shared.device.limits().maxComputeWorkGroupCount[0];
     }
 
     void recordLayer(const FrameContext& frame, uint32_t layer) const;

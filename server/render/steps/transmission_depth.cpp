@@ -3,7 +3,6 @@
 #include "interface/constants.h"
 #include "render/frame/frame_context.h"
 #include "render/frame/need_list.h"
-#include "render/frame/posed_targets.h"
 #include "render/frame/step.h"
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/pass_names.h"
@@ -14,6 +13,7 @@
 #include "render/surfaces/geometry_draws.h"
 #include "render/surfaces/raster_passes.h"
 #include "render/surfaces/rendering_scope.h"
+#include "render/surfaces/visibility_binding.h"
 
 #include <algorithm>
 #include <array>
@@ -31,11 +31,8 @@ class TransmissionDepth final : public Step {
     explicit TransmissionDepth(SceneResources& scene) : scene_(scene) {}
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        Seconds sum = shape_.by_ids ? idsCost(costs) : Seconds(0);
-        for (uint32_t layer = 0; !shape_.by_ids && layer < shape_.layer_count; ++layer) {
-            sum += timeOver(depthCost(costs, clearedBy(layer)), costs.load().size.drawn);
-        }
-        passes.push_back({pass::kTransmissionDepth, sum});
+        passes.push_back(
+            {pass::kTransmissionDepth, shape_.by_ids ? idsCost(costs) : depthsCost(costs)});
     }
     void addMemory(NeedList& need) const override {
         const TransmissionImages images = transmissionImages(drawn_, shape_);
@@ -64,7 +61,7 @@ class TransmissionDepth final : public Step {
                 nextRasterPass(frame.slot.cmd);
             }
             const vk::Rect2D region = clearedBy(layer);
-            inParts(frame, frame.drawn(), depthCost(frame.costs, region),
+            inParts(frame, frame.drawn(), within(frame.costs.depth(), region),
                     [layer, region](const FrameContext& at, const vk::Rect2D& part) {
                         recordPart(at, common(part, region), layer);
                     });
@@ -76,10 +73,8 @@ class TransmissionDepth final : public Step {
         drawn_ = inputs.size.drawn;
         shape_ = transmissionShape(scene_, inputs, plan());
         covered_ = around(inputs.draws.transmissive.parts);
-        visible_ = shape_.by_ids ? &inputs.pose.materialSet()->visibility(
-                                       scene_.detailOf(inputs.settings.geometry_error_px),
-                                       Surfaces::kTransmissive)
-                                 : nullptr;
+        visible_ = layersById(scene_, inputs, plan());
+
         return {};
     }
     // Blended surfaces anywhere ask where the nearest layer is.
@@ -87,17 +82,20 @@ class TransmissionDepth final : public Step {
         const bool everywhere = layer == 0 && plan().blended_output_flags != 0;
         return everywhere ? vk::Rect2D{{0, 0}, {drawn_.width_px, drawn_.height_px}} : covered_;
     }
-    static RegionCost depthCost(const FrameCosts& costs, const vk::Rect2D& region) {
-        const RegionCost depth = costs.depth();
-        return {depth.each,
-                [depth, region](const vk::Rect2D& part) { return depth.of(common(part, region)); }};
+    [[nodiscard]] Seconds depthsCost(const FrameCosts& costs) const {
+        Seconds sum{0};
+        for (uint32_t layer = 0; layer < shape_.layer_count; ++layer) {
+            sum += timeOver(within(costs.depth(), clearedBy(layer)), drawn_);
+        }
+        return sum;
     }
     [[nodiscard]] Seconds idsCost(const FrameCosts& costs) const {
-        RegionCost cost = depthCost(costs, covered_);
+        RegionCost cost = within(costs.depth(), covered_);
+
         cost.each = Seconds(visible_->triangle_count * costs.unit().triangle);
         return timeOver(cost, drawn_);
     }
-    // The first and the end of those of workgroups that surfaces cover.
+
     void recordIds(const FrameContext& frame) const;
     void recordHeads(const FrameContext& frame) const;
     void recordClear(const FrameContext& frame) const;
@@ -135,20 +133,14 @@ void TransmissionDepth::prepare(FrameSlot& slot, FrameBlocks& blocks) {
     if (!shape_.by_ids) {
         return;
     }
-    const ViewTargets& view = *slot.targets;
-    slot.stored.findOrMake<TransmissiveFrame>(scene_.shared.device, *visible_)
-        .write({.resources = scene_,
-                .scene = *visible_,
-                .vertices = vertexBuffers(scene_, slot),
-                .instances = {slot.upload.buffer(), slot.offsets.instances,
-                              scene_.instances.size() * sizeof(io::InstanceView)},
-                .order = {.range = VK_WHOLE_SIZE},
-                .ids = *view.ids.view,
-                .gbuffer = *view.ids.view,
-                .raster = &visible_->computeRaster(),
-                .words = *targets_->words.handle,
-                .depth = nearest ? nearest : *view.compute_depth.view,
-                .tiles = *targets_->tiles.handle});
+    auto bindings = visibilityBindings(scene_, *visible_, slot);
+    bindings.raster = &visible_->computeRaster();
+    bindings.words = *targets_->words.handle;
+    bindings.tiles = *targets_->tiles.handle;
+    if (nearest) {
+        bindings.depth = nearest;
+    }
+    slot.stored.findOrMake<TransmissiveFrame>(scene_.shared.device, *visible_).write(bindings);
 }
 
 // No tile of any layer.

@@ -52,6 +52,14 @@ std::optional<StepPlan> planOfTransmission(const PlanInputs& inputs) {
                     .count = mostLayers(inputs.settings)};
 }
 
+VisibilityScene*
+layersById(const SceneResources& scene, const StepInputs& inputs, const StepPlan& plan) {
+    const Detail detail = scene.detailOf(inputs.settings.geometry_error_px);
+    return (plan.way & kLayersByIds) != 0
+               ? &inputs.pose.materialSet()->visibility(detail, Surfaces::kTransmissive)
+               : nullptr;
+}
+
 float highestLevel(const SceneResources& scene, const StepInputs& inputs) {
     float roughness = 0; // as shaders/lib/layer_types.glsl has it
     for (const DrawGroup& group : inputs.draws.transmissive.groups) {
@@ -99,10 +107,13 @@ vk::DeviceSize layerWordBytes(const settings::Size& drawn, const TransmissionSha
     return shape.by_ids ? kWordBytes * shape.layer_count * drawn.width_px * drawn.height_px : 0;
 }
 
+uint32_t layerTileCount(const settings::Size& drawn) {
+    return screenGroups(drawn.width_px) * screenGroups(drawn.height_px);
+}
+
 vk::DeviceSize layerTileBytes(const settings::Size& drawn, const TransmissionShape& shape) {
     static_assert(io::kMostPeelLayers >= settings::kPeelLayersRange.max);
-    const vk::DeviceSize tiles =
-        vk::DeviceSize{screenGroups(drawn.width_px)} * screenGroups(drawn.height_px);
+    const vk::DeviceSize tiles = layerTileCount(drawn);
     return shape.by_ids ? sizeof(uint32_t) * (io::kTileHeadWords + shape.layer_count * tiles) : 0;
 }
 
@@ -208,7 +219,6 @@ void TransmissionTargets::writeSets(DeviceResources& shared) {
                                   *shared_layouts.sampler);
         const auto coarser = viewOf(*level_views_[level]);
         const vk::DescriptorBufferInfo listed{.buffer = *tiles.handle, .range = VK_WHOLE_SIZE};
-
         shared.device.handle().updateDescriptorSets(
             {write(level_sets_[level], 0, Type::eCombinedImageSampler, finer),
              write(level_sets_[level], 1, Type::eStorageImage, coarser),

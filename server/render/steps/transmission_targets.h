@@ -27,6 +27,11 @@ inline constexpr uint32_t kCullsLayers = 1U << 1U; // and culls their meshlets
 // None: the frame has no such surface. count: how many layers it has at most.
 [[nodiscard]] std::optional<StepPlan> planOfTransmission(const PlanInputs& inputs);
 
+// The surfaces that the frame finds and draws by ids; null: by the rasteriser. Throws
+// vk::SystemError.
+[[nodiscard]] VisibilityScene*
+layersById(const SceneResources& scene, const StepInputs& inputs, const StepPlan& plan);
+
 // How many layers, nearest ones first; and levels of the picture behind: 1 where all of them are
 // clear, so that nothing is blurred.
 struct TransmissionShape {
@@ -56,7 +61,10 @@ struct TransmissionImages {
 [[nodiscard]] vk::DeviceSize layerWordBytes(const settings::Size& drawn,
                                             const TransmissionShape& shape);
 
+// Of a picture: those of workgroups.
+[[nodiscard]] uint32_t layerTileCount(const settings::Size& drawn);
 // Of TransmissionTargets::tiles; 0: none.
+
 [[nodiscard]] vk::DeviceSize layerTileBytes(const settings::Size& drawn,
                                             const TransmissionShape& shape);
 

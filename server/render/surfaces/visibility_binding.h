@@ -2,11 +2,27 @@
 #pragma once
 
 #include "render/frame/frame_context.h"
+#include "render/frame/posed_targets.h"
 #include "render/scene/visibility_scene.h"
 
 #include <array>
 
 namespace froxel::render {
+
+// What the slot's frame binds whichever surfaces it draws; nothing draws them yet.
+[[nodiscard]] inline VisibilityFrame::Bindings
+visibilityBindings(const SceneResources& resources, VisibilityScene& scene, const FrameSlot& slot) {
+    const ViewTargets& targets = *slot.targets;
+    return {.resources = resources,
+            .scene = scene,
+            .vertices = vertexBuffers(resources, slot),
+            .instances = {slot.upload.buffer(), slot.offsets.instances,
+                          resources.instances.size() * sizeof(io::InstanceView)},
+            .order = {.range = VK_WHOLE_SIZE},
+            .ids = *targets.ids.view,
+            .gbuffer = *targets.ids.view,
+            .depth = *targets.compute_depth.view};
+}
 
 [[nodiscard]] inline vk::DescriptorSet visibilitySet(const FrameContext& frame) {
     return frame.visibility->surfaces == Surfaces::kSolid
